@@ -1,0 +1,12 @@
+# Writes one shader file as a header with a string_view constant. Called by umbrage_embed_shaders.
+file(READ ${INPUT} text)
+string(REPLACE "_" ";" words ${STEM})
+set(name "k")
+foreach(word IN LISTS words)
+  string(SUBSTRING ${word} 0 1 head)
+  string(SUBSTRING ${word} 1 -1 tail)
+  string(TOUPPER ${head} head)
+  string(APPEND name ${head}${tail})
+endforeach()
+file(WRITE ${OUTPUT}.new "#pragma once\n#include <string_view>\nnamespace umbrage::shaders {\ninline constexpr std::string_view ${name} = R\"glsl(${text})glsl\";\n}\n")
+file(RENAME ${OUTPUT}.new ${OUTPUT})

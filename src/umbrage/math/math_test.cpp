@@ -1,0 +1,51 @@
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "umbrage/math/box.hpp"
+#include "umbrage/math/predicates.hpp"
+
+namespace umbrage {
+namespace {
+
+Vec3 latticePoint() {
+  const auto coordinate = rc::gen::inRange(-4, 5);
+  return {double(*coordinate), double(*coordinate), double(*coordinate)};
+}
+
+TEST(Box, IsEmptyUntilAPointIsAdded) {
+  Box3 box;
+  EXPECT_TRUE(box.empty());
+  EXPECT_EQ(box.radius(), 0.0);
+  box.add(Vec3(1, 2, 3));
+  EXPECT_FALSE(box.empty());
+  EXPECT_EQ(box.centre(), Vec3(1, 2, 3));
+}
+
+TEST(LightSide, KnowsBothSidesAndTheEdgeOnCase) {
+  const Vec3 a(0, 0, 0), b(0, 1, 0), c(1, 0, 0);
+  const int above = lightSide(a, b, c, {0, 0, 5, 1});
+  EXPECT_NE(above, 0);
+  EXPECT_EQ(lightSide(a, b, c, {0, 0, -5, 1}), -above);
+  EXPECT_EQ(lightSide(a, b, c, {0, 0, 1, 0}), above);
+  EXPECT_EQ(lightSide(a, b, c, {7, 8, 0, 1}), 0);
+  EXPECT_EQ(lightSide(a, a, c, {0, 0, 5, 1}), 0);
+}
+
+// On small integers doubles are exact, so the sign must be the exact determinant's.
+RC_GTEST_PROP(LightSide, EqualsTheExactDeterminantOnALattice, ()) {
+  std::array<Vec3, 3> corner{latticePoint(), latticePoint(), latticePoint()};
+  std::sort(corner.begin(), corner.end(), lexicographicallyLess<Vec3>);
+  const Vec4 light(latticePoint(), *rc::gen::inRange(0, 2));
+  const auto as = [](double v) { return static_cast<long>(v); };
+  const Vec3 u = corner[1] - corner[0], v = corner[2] - corner[0], l = Vec3(light) - corner[0] * light.w;
+  const long exact = as(u.x) * (as(v.y) * as(l.z) - as(v.z) * as(l.y)) - as(u.y) * (as(v.x) * as(l.z) - as(v.z) * as(l.x)) +
+                     as(u.z) * (as(v.x) * as(l.y) - as(v.y) * as(l.x));
+  RC_ASSERT(lightSide(corner[0], corner[1], corner[2], light) == (exact > 0) - (exact < 0));
+}
+
+}  // namespace
+}  // namespace umbrage

@@ -1,0 +1,67 @@
+#include "umbrage/png/png.hpp"
+
+#include <png.h>
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "umbrage/base/file.hpp"
+
+namespace umbrage::png {
+namespace {
+
+constexpr std::uint32_t kLargestSide = 16384;
+
+template <class Pixel>
+Result<void> writePixels(const std::filesystem::path& path, const image::Image<Pixel>& picture, png_uint_32 format) {
+  if (picture.empty()) return fail(ErrorCode::output, "an empty picture cannot be written", path.string());
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(picture.width());
+  header.height = static_cast<png_uint_32>(picture.height());
+  header.format = format;
+  png_alloc_size_t size = 0;
+  std::vector<std::byte> bytes;
+  const void* pixels = picture.pixels().data();
+  if (png_image_write_to_memory(&header, nullptr, &size, 0, pixels, 0, nullptr) != 0) {
+    bytes.resize(size);
+    if (png_image_write_to_memory(&header, bytes.data(), &size, 0, pixels, 0, nullptr) != 0) {
+      bytes.resize(size);
+      return writeFile(path, bytes);
+    }
+  }
+  return fail(ErrorCode::output, std::string("cannot be encoded: ") + header.message, path.string());
+}
+
+}  // namespace
+
+Result<void> write(const std::filesystem::path& path, const image::GreyImage& picture) {
+  return writePixels(path, picture, PNG_FORMAT_GRAY);
+}
+Result<void> write(const std::filesystem::path& path, const image::RgbImage& picture) {
+  return writePixels(path, picture, PNG_FORMAT_RGB);
+}
+Result<void> write(const std::filesystem::path& path, const image::RgbaImage& picture) {
+  return writePixels(path, picture, PNG_FORMAT_RGBA);
+}
+
+Result<image::RgbaImage> read(const std::filesystem::path& path) {
+  const auto bytes = readFile(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_memory(&header, bytes->data(), bytes->size()) == 0)
+    return fail(ErrorCode::input, std::string("is not a readable PNG: ") + header.message, path.string());
+  if (header.width > kLargestSide || header.height > kLargestSide) {
+    png_image_free(&header);
+    return fail(ErrorCode::input, "is larger than 16384 pixels on a side", path.string());
+  }
+  header.format = PNG_FORMAT_RGBA;
+  image::RgbaImage picture(static_cast<int>(header.width), static_cast<int>(header.height));
+  if (png_image_finish_read(&header, nullptr, picture.pixels().data(), 0, nullptr) == 0)
+    return fail(ErrorCode::input, std::string("is a broken PNG: ") + header.message, path.string());
+  return picture;
+}
+
+}  // namespace umbrage::png

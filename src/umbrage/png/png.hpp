@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+#include "umbrage/base/error.hpp"
+#include "umbrage/image/image.hpp"
+
+namespace umbrage::png {
+
+/// Writes an 8-bit PNG, whole or not at all. Same pixels, same bytes.
+[[nodiscard]] Result<void> write(const std::filesystem::path& path, const image::GreyImage& picture);
+[[nodiscard]] Result<void> write(const std::filesystem::path& path, const image::RgbImage& picture);
+[[nodiscard]] Result<void> write(const std::filesystem::path& path, const image::RgbaImage& picture);
+
+/// Any PNG, converted to 8-bit RGBA. Errors: not a PNG, broken, larger than 16384 pixels on a side.
+[[nodiscard]] Result<image::RgbaImage> read(const std::filesystem::path& path);
+
+}  // namespace umbrage::png

@@ -1,0 +1,37 @@
+#include <gtest/gtest.h>
+
+#include "umbrage/base/file.hpp"
+#include "umbrage/png/png.hpp"
+
+namespace umbrage::png {
+namespace {
+
+std::filesystem::path temporary(const char* name) { return std::filesystem::path(testing::TempDir()) / name; }
+
+TEST(Png, ComesBackAsItWent) {
+  image::RgbaImage picture(5, 3);
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 5; ++x) picture(x, y) = {std::uint8_t(50 * x), std::uint8_t(80 * y), 9, std::uint8_t(255 - x)};
+  const auto path = temporary("umbrage_roundtrip.png");
+  ASSERT_TRUE(write(path, picture));
+  EXPECT_EQ(read(path).value(), picture);
+}
+
+TEST(Png, GreyIsReadAsEqualChannels) {
+  image::GreyImage picture(2, 1);
+  picture(1, 0) = 128;
+  const auto path = temporary("umbrage_grey.png");
+  ASSERT_TRUE(write(path, picture));
+  EXPECT_EQ(read(path).value()(1, 0), (image::Rgba8{128, 128, 128, 255}));
+}
+
+TEST(Png, BrokenFilesAndEmptyPicturesAreErrors) {
+  const auto path = temporary("umbrage_broken.png");
+  ASSERT_TRUE(writeFile(path, "not a png"));
+  EXPECT_EQ(read(path).error().code, ErrorCode::input);
+  EXPECT_FALSE(read(temporary("umbrage_absent.png")));
+  EXPECT_FALSE(write(path, image::RgbImage{}));
+}
+
+}  // namespace
+}  // namespace umbrage::png

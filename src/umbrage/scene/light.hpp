@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "umbrage/base/angle.hpp"
+#include "umbrage/math/vec.hpp"
+
+namespace umbrage::scene {
+
+struct PointLight {
+  Vec3 position{0.0};
+};
+/// `direction` is the way the light travels; any length but zero.
+struct DirectionalLight {
+  Vec3 direction{0.0, 0.0, -1.0};
+};
+/// A point light that reaches only directions within `cutoff` of `direction`; 0 < cutoff <= 180 degrees.
+struct SpotLight {
+  Vec3 position{0.0};
+  Vec3 direction{0.0, 0.0, -1.0};
+  Angle cutoff = Angle::degrees(45);
+};
+
+/// A light in world coordinates. No attenuation with distance: brightness is colour x intensity x cosine.
+struct Light {
+  std::variant<PointLight, DirectionalLight, SpotLight> shape;
+  Vec3 colour{1.0};  ///< linear RGB
+  double intensity = 1.0;
+  std::string name;
+};
+
+/// (position - origin, 1), or (unit vector towards the light, 0).
+[[nodiscard]] Vec4 homogeneous(const Light& light, const Vec3& origin);
+
+/// The vector from a point (relative to `origin`) to a homogeneous light; not normalised.
+inline Vec3 towardsLight(const Vec4& light, const Vec3& point) { return Vec3(light) - point * light.w; }
+
+/// True when `point` (world) lies inside the spot's cone, its border included; always true for other lights and at the apex.
+[[nodiscard]] bool insideCone(const Light& light, const Vec3& point);
+
+/// True when position, direction, colour and intensity are finite, the direction is not zero and the cone is sensible.
+[[nodiscard]] bool isValid(const Light& light);
+
+}  // namespace umbrage::scene

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "umbrage/base/angle.hpp"
+#include "umbrage/mesh/mesh.hpp"
+#include "umbrage/scene/camera.hpp"
+#include "umbrage/scene/light.hpp"
+
+namespace umbrage::scene {
+
+/// How a surface looks. colour: linear RGB in [0, 1]; opacity: 0 (clear) to 1.
+struct Material {
+  std::string name;
+  Vec3 colour{0.8};
+  double opacity = 1.0;
+};
+
+/// One placed mesh. `name` is its path through the file's hierarchy, levels separated by '/': "House/Roof/Tiles".
+struct Instance {
+  std::string name;
+  std::uint32_t mesh = 0;
+  Mat4 toWorld{1.0};  ///< affine; may mirror and scale unevenly
+  bool casts = true;  ///< false: it only receives shadows
+};
+
+/// What a file (or a program) says about the world, in the file's own coordinates and units. Immutable once made: changes make
+/// a new Scene, sharing the meshes.
+/// 1. Every Instance::mesh and every material index is valid; every number is finite.
+struct Scene {
+  std::string source;  ///< file name, for messages
+  UpAxis up = UpAxis::z;
+  double metresPerUnit = 1.0;
+  Angle northOffset;   ///< true north lies this much clockwise of the frame's north (see northVector)
+  std::string crs;     ///< coordinate reference system as the file names it, for example "EPSG:28992"; empty: none
+  std::vector<std::shared_ptr<const mesh::Mesh>> meshes;
+  std::vector<Material> materials;  ///< never empty in a valid scene
+  std::vector<Instance> instances;
+  std::vector<Light> lights;
+  std::vector<std::string> warnings;  ///< what was dropped or guessed while reading, for the user
+};
+
+[[nodiscard]] std::size_t triangleCount(const Scene& scene);
+
+/// Bounds of all instances, or of those that cast.
+[[nodiscard]] Box3 bounds(const Scene& scene, bool castersOnly = false);
+
+/// What breaks law 1, or nothing. Importers and the hand-over from the reader process are checked by this.
+[[nodiscard]] std::optional<std::string> findFault(const Scene& scene);
+
+/// The name of the receiver that withGround adds.
+inline constexpr const char* kGroundName = "ground";
+
+/// The scene with a large horizontal receiver at `height` along the up axis (the scene's lowest point by default) that casts
+/// nothing. Its half side is 64 times the scene's radius.
+[[nodiscard]] Scene withGround(Scene scene, std::optional<double> height = std::nullopt);
+
+/// The scene in which only instances whose name matches one of the shell patterns ('*', '?'; case counts) cast; a pattern
+/// matches the whole path or any one level of it.
+[[nodiscard]] Scene withCasters(Scene scene, const std::vector<std::string>& patterns);
+
+/// The matching rule of withCasters.
+[[nodiscard]] bool matchesName(const std::string& name, const std::string& pattern);
+
+}  // namespace umbrage::scene

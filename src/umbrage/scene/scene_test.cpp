@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+#include "umbrage/scene/camera.hpp"
+#include "umbrage/scene/scene.hpp"
+#include "umbrage/scene/surfaces.hpp"
+
+namespace umbrage::scene {
+namespace {
+
+Scene oneTriangle(const Vec3& shift = Vec3(0.0)) {
+  auto m = std::make_shared<mesh::Mesh>();
+  m->positions = {Vec3(1, 0, 0) + shift, Vec3(0, 0, 0) + shift, Vec3(0, 1, 0) + shift};
+  m->triangles = {{0, 1, 2}};
+  Scene s;
+  s.meshes = {m};
+  s.materials = {{}};
+  s.instances = {{"House/Roof", 0}};
+  return s;
+}
+
+void expectNear(const Vec3& a, const Vec3& b) { EXPECT_LT(glm::length(a - b), 1e-12); }
+
+TEST(Frame, EastAndNorthFollowTheContract) {
+  expectNear(eastVector(UpAxis::z), {1, 0, 0});
+  expectNear(northVector(UpAxis::z), {0, 1, 0});
+  expectNear(eastVector(UpAxis::y), {1, 0, 0});
+  expectNear(northVector(UpAxis::y), {0, 0, -1});
+  // True north 90 degrees clockwise of the frame's north is the frame's east.
+  expectNear(northVector(UpAxis::z, Angle::degrees(90)), {1, 0, 0});
+  expectNear(eastVector(UpAxis::z, Angle::degrees(90)), {0, -1, 0});
+}
+
+TEST(Camera, TheMiddleOfThePictureLooksAtTheTarget) {
+  Camera c;
+  c.eye = {3, -4, 5};
+  c.target = {1, 1, 1};
+  c.width = 64;
+  c.height = 48;
+  const PixelRays rays = pixelRays(c);
+  expectNear(glm::normalize(rays.through(32, 24)), glm::normalize(c.target - c.eye));
+  EXPECT_GT(glm::dot(rays.through(32, 0), c.up), glm::dot(rays.through(32, 48), c.up));
+}
+
+TEST(Camera, SurvivesDegenerateViews) {
+  Camera c;
+  c.eye = c.target;
+  EXPECT_NEAR(glm::length(basis(c).right), 1, 1e-12);
+  c.target = c.eye + c.up;
+  EXPECT_NEAR(glm::length(basis(c).up), 1, 1e-12);
+  c.up = Vec3(0.0);
+  EXPECT_NEAR(glm::length(basis(c).up), 1, 1e-12);
+}
+
+TEST(FrameAll, LooksFromTheSouthWestAtThirtyDegrees) {
+  Box3 box;
+  box.add(Vec3(-1.0));
+  box.add(Vec3(1.0));
+  const Camera c = frameAll(box, UpAxis::z, {}, Angle::degrees(45), 1280, 720);
+  const Vec3 from = glm::normalize(c.eye - c.target);
+  EXPECT_NEAR(from.z, 0.5, 1e-12);
+  EXPECT_NEAR(from.x, from.y, 1e-12);
+  EXPECT_LT(from.x, 0);
+}
+
+TEST(FindFault, SeesWhatIsBroken) {
+  EXPECT_FALSE(findFault(oneTriangle()));
+  Scene s = oneTriangle();
+  s.instances[0].mesh = 1;
+  EXPECT_TRUE(findFault(s));
+  s = oneTriangle();
+  s.instances[0].toWorld[3][0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(findFault(s));
+  s = oneTriangle(Vec3(1e200, 0, 0));
+  s.instances[0].toWorld = glm::scale(Mat4(1.0), Vec3(1e200));
+  EXPECT_TRUE(findFault(s));
+}
+
+TEST(Names, MatchWholePathsAndSingleLevels) {
+  EXPECT_TRUE(matchesName("House/Roof", "Roof"));
+  EXPECT_TRUE(matchesName("House/Roof", "House/*"));
+  EXPECT_TRUE(matchesName("House/Roof", "R??f"));
+  EXPECT_FALSE(matchesName("House/Roof", "roof"));
+  EXPECT_FALSE(withCasters(oneTriangle(), {"Wall*"}).instances[0].casts);
+  EXPECT_TRUE(withCasters(oneTriangle(), {"Wall*", "Roof"}).instances[0].casts);
+}
+
+TEST(Ground, ReceivesAndCastsNothing) {
+  const Scene s = withGround(oneTriangle(), -2.0);
+  EXPECT_FALSE(s.instances.back().casts);
+  EXPECT_EQ(bounds(s).min.z, -2.0);
+  EXPECT_EQ(bounds(s, true).min.z, 0.0);
+  EXPECT_FALSE(findFault(s));
+  EXPECT_FALSE(findFault(withGround(Scene{.materials = {{}}})));
+}
+
+TEST(Flatten, SortsCornersAndKeepsExactCoordinatesNearTheOrigin) {
+  const Surfaces s = flatten(oneTriangle());
+  ASSERT_EQ(s.triangles.size(), 1u);
+  EXPECT_EQ(s.origin, Vec3(0.0));
+  EXPECT_EQ(s.corner(0, 0), Vec3(0, 0, 0));
+  EXPECT_EQ(s.corner(0, 1), Vec3(0, 1, 0));
+  EXPECT_EQ(s.corner(0, 2), Vec3(1, 0, 0));
+}
+
+TEST(Flatten, MovesTheOriginForScenesFarAway) {
+  const Surfaces s = flatten(oneTriangle(Vec3(85000.25, 446000.5, 0)));
+  EXPECT_EQ(s.corner(0, 2) + s.origin, Vec3(85001.25, 446000.5, 0));
+}
+
+TEST(Flatten, DropsWhatCollapsesAndCountsIt) {
+  Scene s = oneTriangle();
+  s.instances.push_back({"flat", 0, glm::scale(Mat4(1.0), Vec3(0, 1, 1)), true});
+  const Surfaces flat = flatten(s);
+  EXPECT_EQ(flat.triangles.size(), 1u);
+  EXPECT_EQ(flat.dropped, 1u);
+  EXPECT_EQ(flat.materials.size(), 1u);
+  EXPECT_TRUE(flatten(Scene{.materials = {{}}}).triangles.empty());
+}
+
+}  // namespace
+}  // namespace umbrage::scene

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+
+#include "umbrage/image/image.hpp"
+#include "umbrage/scene/camera.hpp"
+#include "umbrage/scene/scene.hpp"
+#include "umbrage/scene/surfaces.hpp"
+#include "umbrage/shadow/light_mask.hpp"
+#include "umbrage/shadow/surface_buffer.hpp"
+
+namespace umbrage::shadow {
+
+struct CompositeOptions {
+  double ambient = 0.25;                    ///< light from everywhere, before the lights
+  Vec3 background{0.93, 0.95, 0.97};        ///< sRGB, where no surface is
+};
+
+/// The picture on the CPU: linear colour x (ambient + sum over lights of mask x colour x intensity x |cosine|), flat two-sided
+/// shading, then the sRGB transfer curve. Where nothing is shadowed it equals the picture without shadows.
+/// REQUIRES: masks and lights of one length; sizes as the camera's.
+[[nodiscard]] image::RgbImage composite(const scene::Scene& scene, const scene::Surfaces& surfaces, const scene::Camera& camera,
+                                        const SurfaceBuffer& seen, std::span<const scene::Light> lights,
+                                        std::span<const LightMask> masks, const CompositeOptions& options = {});
+
+/// A linear value in [0, 1] (clamped) as an 8-bit sRGB code, and back.
+[[nodiscard]] std::uint8_t encodeSrgb(double linear);
+[[nodiscard]] double decodeSrgb(std::uint8_t code);
+
+}  // namespace umbrage::shadow

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "umbrage/scene/surfaces.hpp"
+
+namespace umbrage::shadow {
+
+/// Per triangle of `surfaces`: 1 when the side that the eye sees is the side that the light sees. Constant over a triangle for
+/// any eye and light, so it is decided once, in double precision, for all techniques alike; edge-on to either is 0.
+/// `eye` and `light` are homogeneous and relative to surfaces.origin (w = 0: a parallel view or a directional light).
+[[nodiscard]] std::vector<std::uint8_t> visibleSideFacesLight(const scene::Surfaces& surfaces, const Vec4& eye,
+                                                              const Vec4& light);
+
+}  // namespace umbrage::shadow

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "umbrage/shadow/caster_set.hpp"
+
+namespace umbrage::shadow {
+
+/// An edge at which the number of surfaces between a point and the light changes by `multiplicity`.
+struct SilhouetteEdge {
+  std::uint32_t a, b;         ///< positions, in lexicographic order
+  std::int32_t multiplicity;  ///< never 0; sign: the sense in which the side of the volume is wound
+  std::uint32_t component;    ///< connected component of the caster it belongs to
+};
+
+/// The silhouette of a caster set as one light sees it.
+struct Silhouette {
+  Vec4 light{0.0};                     ///< homogeneous, relative to CasterSet::origin
+  std::vector<std::int8_t> side;       ///< per triangle: lightSide of its sorted corners, -1, 0 or +1
+  std::vector<SilhouetteEdge> edges;   ///< in the order of CasterSet::edges
+  std::size_t edgesTested = 0;
+};
+
+/// Every edge tested, one after the other: the yardstick for all other finders.
+/// `light`: homogeneous, relative to the origin of `casters` (scene::homogeneous).
+/// Law: for every closed surface bounding a set of triangles the multiplicities cancel, so the volume is watertight whatever the
+/// topology and whatever rounding did to a sign.
+/// Source: Aldridge and Woods, robust geometry-independent shadow volumes, 2004; Kim, Kim and Turk, 2008.
+[[nodiscard]] Silhouette findSilhouette(const CasterSet& casters, const Vec4& light);
+
+}  // namespace umbrage::shadow

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "umbrage/base/error.hpp"
+#include "umbrage/scene/camera.hpp"
+#include "umbrage/scene/light.hpp"
+#include "umbrage/scene/surfaces.hpp"
+#include "umbrage/shadow/caster_set.hpp"
+#include "umbrage/shadow/light_mask.hpp"
+#include "umbrage/shadow/surface_buffer.hpp"
+
+namespace umbrage::shadow {
+
+/// What a technique is and promises.
+struct Traits {
+  std::string name;              ///< as the command line spells it: "zfail"
+  std::string summary;           ///< one sentence
+  bool soft = false;             ///< takes area lights
+  bool tinted = false;           ///< knows coloured transparent casters
+  bool needsClosed = false;      ///< exact for closed casters only
+  bool needsGraphics = false;    ///< runs on OpenGL
+  int edgeTolerancePx = 1;       ///< pixels this near to a true edge may differ from the truth
+};
+
+/// The geometry a technique is prepared for.
+struct Geometry {
+  scene::Surfaces surfaces;
+  CasterSet casters;
+};
+[[nodiscard]] inline std::shared_ptr<const Geometry> makeGeometry(const scene::Scene& scene) {
+  auto surfaces = scene::flatten(scene);
+  auto casters = buildCasters(surfaces);
+  return std::make_shared<const Geometry>(Geometry{std::move(surfaces), std::move(casters)});
+}
+
+/// One picture's worth of work.
+struct Frame {
+  scene::Camera camera;
+  std::span<const scene::Light> lights;
+};
+
+struct PhaseTime {
+  std::string name;
+  double milliseconds = 0.0;
+};
+
+/// What was done for one light, for --stats.
+struct LightStats {
+  std::string method;  ///< for example "zpass", "zfail", "ray_traced"
+  std::string reason;  ///< why this method, in words
+  std::size_t edgesTested = 0;
+  std::size_t silhouetteEdges = 0;
+  std::size_t volumeTriangles = 0;
+  std::size_t castersByZFail = 0;  ///< components that fell back from z-pass
+  int eyeCount = 0;
+};
+
+struct FrameStats {
+  std::vector<PhaseTime> phases;  ///< wall-clock, in order; with OpenGL each ends with a finish
+  std::vector<LightStats> lights;
+};
+
+/// One mask per light of the frame, and what the camera sees.
+struct Shading {
+  SurfaceBuffer surface;
+  std::vector<LightMask> masks;
+  FrameStats stats;
+};
+
+/// A way to compute shadows. prepare() once per geometry, shade() once per frame. Not thread-safe.
+class Technique {
+ public:
+  virtual ~Technique() = default;
+  [[nodiscard]] virtual const Traits& traits() const = 0;
+  /// Errors: ErrorCode::device when memory or features are missing.
+  [[nodiscard]] virtual Result<void> prepare(std::shared_ptr<const Geometry> geometry) = 0;
+  /// REQUIRES: prepare() succeeded. A frame without lights gives the surface alone.
+  [[nodiscard]] virtual Result<Shading> shade(const Frame& frame) = 0;
+};
+
+/// One row of a room's registry.
+struct TechniqueEntry {
+  Traits traits;
+  /// Errors: ErrorCode::device, saying why it cannot run here.
+  std::function<Result<std::unique_ptr<Technique>>()> create;
+};
+
+}  // namespace umbrage::shadow

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "umbrage/shadow/silhouette.hpp"
+
+namespace umbrage::shadow {
+
+/// A shadow volume as indices into doubled vertices: 2i is position i itself, 2i+1 is position i carried away from the light to
+/// infinity: (p - light, 0) for a point light, (-light, 0) for a direction.
+/// 1. Outward faces are counter-clockwise.
+/// 2. `sides` alone is what z-pass draws; `sides` and `caps` together are a closed surface, as z-fail needs.
+/// 3. Near caps lie on the casters themselves and far caps at infinity, so where the casters are in the depth buffer, no cap
+///    fragment is ever nearer than the picture: z-fail may let every cap fragment fail its depth test (no comparison, no
+///    z-fighting with the caster or with surfaces that lie in its plane).
+struct ShadowVolume {
+  std::vector<std::uint32_t> sides;  ///< triangles
+  std::vector<std::uint32_t> caps;   ///< triangles: near caps, for point lights far caps too
+
+  [[nodiscard]] std::size_t triangleCount() const { return (sides.size() + caps.size()) / 3; }
+};
+
+struct ExtrudeOptions {
+  bool caps = true;
+  /// Per component of the casters: 0 leaves it out. Empty: all are extruded.
+  std::span<const std::uint8_t> components;
+};
+
+[[nodiscard]] ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, const ExtrudeOptions& options = {});
+
+/// How many caster surfaces lie between `point` and the light, by the rule the volumes count with (double precision, by brute
+/// force over all triangles). `point` is relative to the origin of the casters. Components with a nonzero entry in `skip` are left out.
+[[nodiscard]] int countSurfaces(const CasterSet& casters, const Silhouette& silhouette, const Vec3& point,
+                                std::span<const std::uint8_t> skip = {});
+
+}  // namespace umbrage::shadow
