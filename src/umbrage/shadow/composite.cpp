@@ -1,0 +1,101 @@
+#include "umbrage/shadow/composite.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace umbrage::shadow {
+namespace {
+
+constexpr int kCurveSteps = 1 << 14;
+
+double srgbCurve(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+// The curve in steps fine enough to give the exact code or its neighbour everywhere.
+const std::array<std::uint8_t, kCurveSteps + 1>& curveTable() {
+  static const auto table = [] {
+    std::array<std::uint8_t, kCurveSteps + 1> codes{};
+    for (int i = 0; i <= kCurveSteps; ++i)
+      codes[i] = static_cast<std::uint8_t>(std::lround(255.0 * srgbCurve(double(i) / kCurveSteps)));
+    return codes;
+  }();
+  return table;
+}
+
+image::Rgb8 encode(const Vec3& linear) { return {encodeSrgb(linear.x), encodeSrgb(linear.y), encodeSrgb(linear.z)}; }
+
+struct PreparedLight {
+  Vec4 homogeneous;
+  Vec3 radiance;  // colour x intensity
+};
+
+std::vector<PreparedLight> prepare(std::span<const scene::Light> lights, const Vec3& origin) {
+  std::vector<PreparedLight> prepared;
+  for (const scene::Light& light : lights)
+    prepared.push_back({scene::homogeneous(light, origin), light.colour * light.intensity});
+  return prepared;
+}
+
+// Light that falls on unit normal `n` at `point`, unshadowed.
+Vec3 received(const PreparedLight& light, const Vec3& point, const Vec3& n) {
+  const Vec3 direction = scene::towardsLight(light.homogeneous, point);
+  const double length = glm::length(direction);
+  return length > 0.0 ? light.radiance * (std::abs(glm::dot(n, direction)) / length) : Vec3(0.0);
+}
+
+Vec3 maskValue(const LightMask& mask, int x, int y) {
+  if (mask.tint.empty()) return Vec3(mask.light(x, y) / 255.0);
+  const image::Rgb8 t = mask.tint(x, y);
+  return Vec3(t.r, t.g, t.b) / 255.0;
+}
+
+}  // namespace
+
+std::uint8_t encodeSrgb(double linear) {
+  const double bounded = linear > 0.0 ? std::min(linear, 1.0) : 0.0;  // not-a-number is black
+  return curveTable()[static_cast<std::size_t>(std::lround(bounded * kCurveSteps))];
+}
+
+double decodeSrgb(std::uint8_t code) {
+  const double v = code / 255.0;
+  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+double skyLight(double ambient, const Vec3& normal, const Vec3& up) {
+  return ambient * (kSkyBase + (1.0 - kSkyBase) * glm::dot(normal, up));
+}
+
+image::RgbImage composite(const scene::Scene& scene, const scene::Surfaces& surfaces, const scene::Camera& camera,
+                          const SurfaceBuffer& seen, std::span<const scene::Light> lights,
+                          std::span<const LightMask> masks, const CompositeOptions& options) {
+  UMBRAGE_CHECK(lights.size() == masks.size(), "one mask a light");
+  UMBRAGE_CHECK(seen.triangle.width() == camera.width && seen.triangle.height() == camera.height, "picture size");
+  const auto prepared = prepare(lights, surfaces.origin);
+  const scene::PixelRays rays = scene::pixelRays(camera);
+  const Vec3 eye = camera.eye - surfaces.origin;
+  const Vec3 up = scene::upVector(scene.up);
+  const auto code = [](double srgb) { return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(srgb, 0.0, 1.0))); };
+  const image::Rgb8 background{code(options.background.x), code(options.background.y), code(options.background.z)};
+
+  image::RgbImage picture(camera.width, camera.height, background);
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 0; x < camera.width; ++x) {
+      const std::uint32_t t = seen.triangle(x, y);
+      if (t == kNoTriangle) continue;
+      const Vec3 ray = rays.through(x + 0.5, y + 0.5);
+      Vec3 n = glm::normalize(surfaces.normal(t));
+      if (glm::dot(n, ray) > 0.0) n = -n;
+      const Vec3 point = eye + double(seen.depth(x, y)) * ray;
+      Vec3 light(skyLight(options.ambient, n, up));
+      for (std::size_t i = 0; i < masks.size(); ++i)
+        if (const Vec3 m = maskValue(masks[i], x, y); m != Vec3(0.0)) light += m * received(prepared[i], point, n);
+      picture(x, y) = encode(scene.materials[surfaces.materials[t]].colour * light);
+    }
+  }
+  return picture;
+}
+
+}  // namespace umbrage::shadow

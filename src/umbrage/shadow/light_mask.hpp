@@ -20,7 +20,7 @@ struct LightMask {
 /// How two masks of one view differ.
 struct MaskDifference {
   std::size_t differing = 0;    ///< pixels where either covered or light differs
-  std::size_t farFromEdge = 0;  ///< those farther than `edgeTolerance` pixels (Chebyshev) from a shadow or depth edge of the truth
+  std::size_t farFromEdge = 0;  ///< those farther than `edgeTolerance` pixels (Chebyshev) from a nonzero pixel of `edges`
   std::size_t covered = 0;      ///< pixels where the truth sees a surface
 };
 
@@ -28,8 +28,8 @@ struct MaskDifference {
 [[nodiscard]] MaskDifference compare(const LightMask& mask, const LightMask& truth, const image::GreyImage& edges,
                                      int edgeTolerance = 1);
 
-/// Pixels of `truth` that have a 4-neighbour with another light or covered value, or that see another triangle whose depth
-/// differs: shadow edges and silhouettes in the picture. `triangle`/`depth` may be empty (then masks alone decide).
+/// Pixels of `truth` that have a 4-neighbour with another light or covered value: shadow edges and the scene's outline, as far
+/// as one sample a pixel shows them.
 [[nodiscard]] image::GreyImage edgePixels(const LightMask& truth);
 
 }  // namespace umbrage::shadow

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -31,9 +30,16 @@ struct ExtrudeOptions {
 
 [[nodiscard]] ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, const ExtrudeOptions& options = {});
 
-/// How many caster surfaces lie between `point` and the light, by the rule the volumes count with (double precision, by brute
-/// force over all triangles). `point` is relative to the origin of the casters. Components with a nonzero entry in `skip` are left out.
-[[nodiscard]] int countSurfaces(const CasterSet& casters, const Silhouette& silhouette, const Vec3& point,
-                                std::span<const std::uint8_t> skip = {});
+/// The caster surfaces between a point and the light.
+struct SurfaceCount {
+  int count = 0;    ///< crossed by the segment for certain
+  int unclear = 0;  ///< whose border the segment touches as far as double arithmetic can tell; not in `count`
+};
+
+/// How many caster surfaces lie between `point` and the light, by the rule the volumes count with, in double precision and by
+/// brute force over all triangles. `point` is relative to the origin of the casters. Surfaces edge-on to the light, and those
+/// in whose plane the point lies, do not count. Components with a nonzero entry in `skip` are left out.
+[[nodiscard]] SurfaceCount countSurfaces(const CasterSet& casters, const Silhouette& silhouette, const Vec3& point,
+                                         std::span<const std::uint8_t> skip = {});
 
 }  // namespace umbrage::shadow
