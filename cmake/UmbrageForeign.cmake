@@ -1,0 +1,17 @@
+# How to find the package behind a foreign target, for the consumers of an installed Umbrage. A new foreign library of a room
+# (LIBS or PUBLIC_LIBS of umbrage_module) that is not header-only gets its line here.
+macro(umbrage_find_foreign target)
+  if(TARGET ${target})
+  elseif("${target}" MATCHES "^PkgConfig::(.+)$")
+    find_dependency(PkgConfig)
+    pkg_check_modules(${CMAKE_MATCH_1} REQUIRED QUIET IMPORTED_TARGET ${CMAKE_MATCH_1})
+  elseif("${target}" STREQUAL "tl::expected")
+    find_dependency(tl-expected)
+  elseif("${target}" STREQUAL "embree")
+    find_dependency(embree 3.13)
+  elseif("${target}" MATCHES "^([^:]+)::")
+    find_dependency(${CMAKE_MATCH_1})
+  else()
+    message(FATAL_ERROR "umbrage: no rule finds the foreign target ${target} (cmake/UmbrageForeign.cmake)")
+  endif()
+endmacro()
