@@ -1,0 +1,113 @@
+#include "umbrage/sun/sun.hpp"
+
+#include <erfa.h>
+#include <erfam.h>
+
+#include <array>
+#include <cmath>
+
+namespace umbrage::sun {
+namespace {
+
+constexpr double kUnixEpoch = 2440587.5;  // Julian date of 1970-01-01
+constexpr double kMillisecondsPerDay = 86400e3;
+constexpr double kTtMinusTai = 32.184;                    // seconds
+constexpr double kSolarParallax = 8.794143 * ERFA_DAS2R;  // equatorial horizontal parallax at 1 au
+constexpr double kPi = std::numbers::pi;
+
+// A Julian date in two parts, the first a whole number plus a half, as ERFA likes it.
+struct JulianDate {
+  double day, fraction;
+};
+
+JulianDate julianDate(Instant instant) {
+  const auto day = std::chrono::floor<std::chrono::days>(instant);
+  return {kUnixEpoch + double(day.time_since_epoch().count()), double((instant - day).count()) / kMillisecondsPerDay};
+}
+
+double leapSeconds(Instant instant) {
+  const auto day = std::chrono::floor<std::chrono::days>(instant);
+  const std::chrono::year_month_day date(day);
+  double taiMinusUtc = 0.0;  // stays 0 before 1960, where the table begins
+  eraDat(int(date.year()), int(unsigned(date.month())), int(unsigned(date.day())), 0.0, &taiMinusUtc);
+  return taiMinusUtc;
+}
+
+// The geocentric apparent sun, in the Earth-fixed equatorial frame: hour angle at Greenwich, declination, distance in
+// au.
+struct ApparentSun {
+  double greenwichHourAngle, declination, distance;
+};
+
+ApparentSun apparentSun(Instant instant) {
+  const JulianDate ut = julianDate(instant);
+  const double ttFraction = ut.fraction + (kTtMinusTai + leapSeconds(instant)) / 86400.0;
+  eraASTROM frame;
+  double equationOfOrigins;
+  eraApci13(ut.day, ttFraction, &frame, &equationOfOrigins);
+  double heliocentric[2][3], barycentric[2][3];
+  eraEpv00(ut.day, ttFraction, heliocentric, barycentric);
+  double towards[3], distance, direction[3];
+  eraSxp(-1.0, heliocentric[0], towards);
+  eraPn(towards, &distance, direction);
+  // The sun hardly moves about the barycentre while its light travels, so aberration alone accounts for the light time.
+  double apparent[3], intermediate[3], rightAscension, declination;
+  eraAb(direction, frame.v, distance, frame.bm1, apparent);
+  eraRxp(frame.bpn, apparent, intermediate);
+  eraC2s(intermediate, &rightAscension, &declination);
+  return {eraAnpm(eraEra00(ut.day, ut.fraction) - rightAscension), declination, distance};
+}
+
+}  // namespace
+
+Angle refractionAt(Angle trueElevation) {
+  constexpr double kLowest = -1.0;
+  const double h = std::max(trueElevation.degrees(), kLowest);
+  const double arcMinutes = 1.02 / tan(Angle::degrees(h + 10.3 / (h + 5.11)));
+  const double lift = std::max(0.0, arcMinutes / 60.0);
+  if (trueElevation.degrees() >= kLowest) return Angle::degrees(lift);
+  if (trueElevation.degrees() <= -89.0) return {};
+  return Angle::degrees(lift * tan(Angle::degrees(kLowest)) / tan(trueElevation));
+}
+
+SunPosition sunPosition(const Place& place, Instant instant, Refraction refraction) {
+  const ApparentSun sun = apparentSun(instant);
+  const double h = sun.greenwichHourAngle + place.longitude.radians();
+  const double sinLatitude = sin(place.latitude), cosLatitude = cos(place.latitude);
+  const double sinDeclination = std::sin(sun.declination), cosDeclination = std::cos(sun.declination);
+  const double east = -cosDeclination * std::sin(h);
+  const double north = sinDeclination * cosLatitude - cosDeclination * std::cos(h) * sinLatitude;
+  const double up = sinDeclination * sinLatitude + cosDeclination * std::cos(h) * cosLatitude;
+  // Seen from the surface instead of the centre of the (here spherical) Earth.
+  const double lowered = up - kSolarParallax / sun.distance;
+  Angle elevation = Angle::radians(std::atan2(lowered, std::hypot(east, north)));
+  if (refraction == Refraction::standard) elevation = elevation + refractionAt(elevation);
+  return {elevation, Angle::radians(std::atan2(east, north)).wrapped()};
+}
+
+Angle hourAngle(const Place& place, Instant instant) {
+  return Angle::radians(eraAnpm(apparentSun(instant).greenwichHourAngle + place.longitude.radians()));
+}
+
+Instant instantOfHourAngle(const Place& place, Instant near, Angle angle) {
+  // The hour angle grows by 15 degrees an hour to within 30 s a day: each pass shrinks the error more than a
+  // thousandfold.
+  for (int pass = 0; pass < 4; ++pass) {
+    const double missing = eraAnpm(angle.radians() - hourAngle(place, near).radians());
+    near += std::chrono::milliseconds(std::llround(missing / (2.0 * kPi) * kMillisecondsPerDay));
+  }
+  return near;
+}
+
+Vec3 eastNorthUp(const SunPosition& position) {
+  const double horizontal = cos(position.elevation);
+  return {horizontal * sin(position.azimuth), horizontal * cos(position.azimuth), sin(position.elevation)};
+}
+
+std::string_view compassPoint(Angle azimuth) {
+  static constexpr std::array<std::string_view, 16> kNames{"N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE",
+                                                           "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"};
+  return kNames[static_cast<std::size_t>(std::lround(azimuth.wrapped().degrees() / 22.5)) % kNames.size()];
+}
+
+}  // namespace umbrage::sun
