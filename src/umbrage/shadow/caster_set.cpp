@@ -1,9 +1,13 @@
 #include "umbrage/shadow/caster_set.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
 #include <utility>
 
 #include "umbrage/base/check.hpp"
+#include "umbrage/math/predicates.hpp"
 #include "umbrage/mesh/weld.hpp"
 
 namespace umbrage::shadow {
@@ -27,6 +31,67 @@ void buildEdges(CasterSet& casters) {
   casters.report.windingFlips = 0;  // corners are sorted: the file's winding is gone
 }
 
+// Every corner is held against every plane, so large components are not asked; they count all their surfaces instead.
+constexpr std::size_t kLargestConvexTest = 4'000'000;
+
+std::vector<std::uint8_t> closedComponents(const CasterSet& casters) {
+  std::vector<std::uint8_t> closed(casters.componentCount, 1);
+  for (const CasterEdge& edge : casters.edges)
+    if (edge.end - edge.begin != 2) closed[casters.componentOf[casters.uses[edge.begin].triangle]] = 0;
+  return closed;
+}
+
+std::vector<std::uint32_t> cornersOf(const CasterSet& casters, std::span<const std::uint32_t> triangles) {
+  std::vector<std::uint32_t> corners;
+  for (const std::uint32_t t : triangles) corners.insert(corners.end(), casters.triangles[t].begin(), casters.triangles[t].end());
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+// How far rounding to float may push a corner out of a plane: a few units in the last place of the largest coordinate.
+double roundingReach(const CasterSet& casters, std::span<const std::uint32_t> corners) {
+  double largest = 0.0;
+  for (const std::uint32_t i : corners) {
+    const Vec3 p = glm::abs(casters.position(i));
+    largest = std::max({largest, p.x, p.y, p.z});
+  }
+  return 8.0 * std::numeric_limits<float>::epsilon() * largest;
+}
+
+// Marks the triangles of one closed component as outward or not, or leaves them at 0 when it is not convex.
+void markIfConvex(CasterSet& casters, std::span<const std::uint32_t> triangles) {
+  const auto corners = cornersOf(casters, triangles);
+  if (corners.size() < 4 || corners.size() * triangles.size() > kLargestConvexTest) return;
+  Vec3 middle(0.0);
+  for (const std::uint32_t i : corners) middle += casters.position(i) / double(corners.size());
+  const double tolerance = roundingReach(casters, corners);
+  std::vector<std::int8_t> outward;
+  for (const std::uint32_t t : triangles) {
+    const Vec3 a = casters.corner(t, 0), b = casters.corner(t, 1), c = casters.corner(t, 2);
+    const int away = -lightSide(a, b, c, Vec4(middle, 1.0));
+    const Vec3 normal = double(away) * glm::cross(b - a, c - a);
+    const double allowed = tolerance * glm::length(normal);
+    if (away == 0 || -glm::dot(normal, middle - a) <= 2.0 * allowed) return;  // flat: it has no inside
+    for (const std::uint32_t i : corners)
+      if (glm::dot(normal, casters.position(i) - a) > allowed) return;
+    outward.push_back(static_cast<std::int8_t>(away));
+  }
+  for (std::size_t i = 0; i < triangles.size(); ++i) casters.outward[triangles[i]] = outward[i];
+}
+
+void findConvexSolids(CasterSet& casters) {
+  casters.outward.assign(casters.triangles.size(), 0);
+  const auto closed = closedComponents(casters);
+  std::vector<std::uint32_t> begin(casters.componentCount + 1, 0);
+  for (const std::uint32_t component : casters.componentOf) ++begin[component + 1];
+  for (std::size_t c = 0; c < casters.componentCount; ++c) begin[c + 1] += begin[c];
+  std::vector<std::uint32_t> byComponent(casters.triangles.size()), next = begin;
+  for (std::uint32_t t = 0; t < casters.triangles.size(); ++t) byComponent[next[casters.componentOf[t]]++] = t;
+  for (std::size_t c = 0; c < casters.componentCount; ++c)
+    if (closed[c] != 0) markIfConvex(casters, std::span(byComponent).subspan(begin[c], begin[c + 1] - begin[c]));
+}
+
 // Everything that follows from positions and triangles.
 CasterSet finish(CasterSet casters) {
   for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
@@ -35,6 +100,7 @@ CasterSet finish(CasterSet casters) {
   auto components = mesh::connectedComponents(casters.triangles);
   casters.componentOf = std::move(components.ofTriangle);
   casters.componentCount = components.count;
+  findConvexSolids(casters);
   return casters;
 }
 

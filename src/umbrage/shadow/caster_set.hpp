@@ -24,6 +24,8 @@ struct CasterEdgeUse {
 /// What casts shadows, ready for silhouettes: any triangle soup, any number of triangles at an edge.
 /// 1. positions are relative to `origin`, free of duplicates; corners of triangles are in lexicographic order.
 /// 2. Nothing is refused for its topology; `report` says what it is.
+/// 3. A component is a convex solid when it is closed, every edge has two triangles, and no corner lies outside any of its
+///    planes by more than rounding.
 struct CasterSet {
   Vec3 origin{0.0};
   std::vector<Vec3f> positions;
@@ -33,6 +35,8 @@ struct CasterSet {
   std::vector<CasterEdgeUse> uses;
   std::vector<std::uint32_t> componentOf;  ///< per triangle: its connected component
   std::uint32_t componentCount = 0;
+  /// Per triangle of a convex solid: the value of lightSide for a light on its outer side, +1 or -1; 0 for all other triangles.
+  std::vector<std::int8_t> outward;
   Box3 bounds;  ///< of the corners of all triangles, relative to origin
   mesh::MeshReport report;
 

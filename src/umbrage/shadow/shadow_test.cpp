@@ -53,11 +53,18 @@ Vec4 latticeLight() {
 
 // --- silhouettes ---------------------------------------------------------------------------------------------------------
 
-TEST(Silhouette, OfACubeFromAFaceDirectionIsTheSquareCountedTwice) {
+constexpr SilhouetteOptions kEverySurface{.countEverySurface = true};
+
+TEST(Silhouette, OfACubeFromAboveIsItsUpperSquare) {
   const CasterSet casters = cube();
-  const Silhouette s = findSilhouette(casters, {0.5, 0.5, 9, 1});
-  EXPECT_EQ(s.edges.size(), 4u);  // the four upper edges: top and side faces lie on different sides, both counted
-  for (const SilhouetteEdge& e : s.edges) EXPECT_EQ(std::abs(e.multiplicity), 2);
+  const Vec4 above(0.5, 0.5, 9, 1);
+  const Silhouette s = findSilhouette(casters, above);
+  EXPECT_EQ(s.edges.size(), 4u);
+  for (const SilhouetteEdge& e : s.edges) EXPECT_EQ(std::abs(e.multiplicity), 1);
+  // Counting both the lit top and the averted rest, the same edges count twice.
+  const Silhouette all = findSilhouette(casters, above, kEverySurface);
+  EXPECT_EQ(all.edges.size(), 4u);
+  for (const SilhouetteEdge& e : all.edges) EXPECT_EQ(std::abs(e.multiplicity), 2);
   EXPECT_EQ(casters.report.topology, mesh::Topology::closed);
   EXPECT_EQ(casters.componentCount, 1u);
 }
@@ -80,6 +87,56 @@ TEST(Silhouette, DoesNotDependOnTheFilesWindingOrOrder) {
     return edges;
   };
   EXPECT_EQ(signature(cube()), signature(buildCasters(kCubeCorners, flipped)));
+}
+
+TEST(Silhouette, OfASolidCountsAllFacesForALightInsideOrOnIt) {
+  const CasterSet casters = cube();
+  for (const Vec3& light : {Vec3(0.5, 0.4, 0.3), Vec3(0, 0, 1), Vec3(0.5, 0.5, 1), Vec3(1, 0.5, 1)}) {
+    const Silhouette s = findSilhouette(casters, Vec4(light, 1.0));
+    EXPECT_EQ(s.side, findSilhouette(casters, Vec4(light, 1.0), kEverySurface).side);
+    EXPECT_GT(countSurfaces(casters, s, {0.51, 0.43, -3}).count, 0);
+  }
+}
+
+TEST(ConvexSolids, AreClosedAndHaveAnInside) {
+  const auto isSolid = [](const CasterSet& c) {
+    return !c.outward.empty() && std::all_of(c.outward.begin(), c.outward.end(), [](int v) { return v != 0; });
+  };
+  EXPECT_TRUE(isSolid(cube()));
+  auto open = kCubeFaces;
+  open.pop_back();
+  EXPECT_FALSE(isSolid(buildCasters(kCubeCorners, open)));
+  auto dented = kCubeCorners;
+  dented[6] = {0.4f, 0.4f, 0.4f};
+  EXPECT_FALSE(isSolid(buildCasters(dented, kCubeFaces)));
+  auto flat = kCubeCorners;
+  for (Vec3f& p : flat) p.z = 0.25f * p.x;
+  EXPECT_FALSE(isSolid(buildCasters(flat, kCubeFaces)));
+  // Turned and carried off, its faces are plane only up to rounding.
+  auto turned = kCubeCorners;
+  for (Vec3f& p : turned) {
+    p = Vec3f(0.36f * p.x - 0.48f * p.y + 0.8f * p.z, 0.8f * p.x + 0.6f * p.y,
+              -0.48f * p.x + 0.64f * p.y + 0.6f * p.z) +
+        Vec3f(100.3f, 7.7f, -31.1f);
+  }
+  EXPECT_TRUE(isSolid(buildCasters(turned, kCubeFaces)));
+}
+
+// Leaving out averted faces never changes where shadow is.
+RC_GTEST_PROP(ConvexSolids, HideTheSameWithAndWithoutTheirAvertedFaces, ()) {
+  Soup soup;
+  for (int box = 0; box < 3; ++box) {
+    const Vec3f low = latticePoint(4), size = glm::abs(latticePoint(3)) + Vec3f(1.0f);
+    const auto base = static_cast<std::uint32_t>(soup.positions.size());
+    for (const Vec3f& c : kCubeCorners) soup.positions.push_back(low + c * size);
+    for (const mesh::Triangle& t : kCubeFaces) soup.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+  }
+  const CasterSet casters = buildCasters(soup.positions, soup.triangles);
+  const Vec4 light = latticeLight();
+  const Vec3 point = Vec3(latticePoint(8)) + Vec3(0.3113, 0.2371, 0.1709);
+  const SurfaceCount every = countSurfaces(casters, findSilhouette(casters, light, kEverySurface), point);
+  RC_PRE(every.unclear == 0);
+  RC_ASSERT((countSurfaces(casters, findSilhouette(casters, light), point).count > 0) == (every.count > 0));
 }
 
 // Sides and caps together are a closed surface: every directed edge is run as often one way as the other.
@@ -145,7 +202,7 @@ RC_GTEST_PROP(CountSurfaces, EqualsExactCrossingsOnALattice, ()) {
   bool sure = true;
   const int expected = exactCrossings(soup, point, light, sure);
   RC_PRE(sure);
-  const SurfaceCount counted = countSurfaces(casters, findSilhouette(casters, light), Vec3(point));
+  const SurfaceCount counted = countSurfaces(casters, findSilhouette(casters, light, kEverySurface), Vec3(point));
   RC_ASSERT(counted.unclear == 0);
   RC_ASSERT(counted.count == expected);
 }
@@ -201,10 +258,12 @@ RC_GTEST_PROP(Volume, EnclosesEveryPointAsOftenAsSurfacesCoverIt, ()) {
 
 // --- the eye count -------------------------------------------------------------------------------------------------------
 
-TEST(EyeCount, CountsBothWallsOfACubeBetweenEyeAndLight) {
+TEST(EyeCount, CountsTheWallsOfACubeBetweenEyeAndLight) {
   const CasterSet casters = cube();
-  const Silhouette s = findSilhouette(casters, {0.4, 0.3, 9, 1});
-  EXPECT_EQ(countAtEye(casters, s, {0.45, 0.35, -5}).count, 2);
+  const Vec4 light(0.4, 0.3, 9, 1);
+  EXPECT_EQ(countAtEye(casters, findSilhouette(casters, light, kEverySurface), {0.45, 0.35, -5}).count, 2);
+  const Silhouette s = findSilhouette(casters, light);
+  EXPECT_EQ(countAtEye(casters, s, {0.45, 0.35, -5}).count, 1);
   EXPECT_EQ(countAtEye(casters, s, {0.45, 0.35, 0.5}).count, 1);
   EXPECT_EQ(countAtEye(casters, s, {5, 5, -5}).count, 0);
 }

@@ -14,12 +14,22 @@ std::vector<std::int8_t> sidesOf(const CasterSet& casters, const Vec4& light) {
   return side;
 }
 
+// A light inside a convex solid, or on it, sees none of its faces from outside; then all faces must count.
+void leaveOutAvertedFaces(const CasterSet& casters, std::vector<std::int8_t>& side) {
+  std::vector<std::uint8_t> seenFromOutside(casters.componentCount, 0);
+  for (std::size_t t = 0; t < side.size(); ++t)
+    if (side[t] * casters.outward[t] > 0) seenFromOutside[casters.componentOf[t]] = 1;
+  for (std::size_t t = 0; t < side.size(); ++t)
+    if (side[t] * casters.outward[t] < 0 && seenFromOutside[casters.componentOf[t]] != 0) side[t] = 0;
+}
+
 }  // namespace
 
-Silhouette findSilhouette(const CasterSet& casters, const Vec4& light) {
+Silhouette findSilhouette(const CasterSet& casters, const Vec4& light, const SilhouetteOptions& options) {
   Silhouette silhouette;
   silhouette.light = light;
   silhouette.side = sidesOf(casters, light);
+  if (!options.countEverySurface) leaveOutAvertedFaces(casters, silhouette.side);
   silhouette.edgesTested = casters.edges.size();
   for (const CasterEdge& edge : casters.edges) {
     std::int32_t multiplicity = 0;

@@ -17,9 +17,16 @@ struct SilhouetteEdge {
 /// The silhouette of a caster set as one light sees it.
 struct Silhouette {
   Vec4 light{0.0};                     ///< homogeneous, relative to CasterSet::origin
-  std::vector<std::int8_t> side;       ///< per triangle: lightSide of its sorted corners, -1, 0 or +1
+  /// Per triangle: lightSide of its sorted corners, -1 or +1, when it counts; 0 when it is edge-on to the light or left out.
+  std::vector<std::int8_t> side;
   std::vector<SilhouetteEdge> edges;   ///< in the order of CasterSet::edges
   std::size_t edgesTested = 0;
+};
+
+struct SilhouetteOptions {
+  /// A convex solid seen from outside hides the light wherever its lit faces do, so its averted faces are left out: half the
+  /// sides and caps, and the same shadows. True counts every surface all the same.
+  bool countEverySurface = false;
 };
 
 /// Every edge tested, one after the other: the yardstick for all other finders.
@@ -27,6 +34,6 @@ struct Silhouette {
 /// Law: for every closed surface bounding a set of triangles the multiplicities cancel, so the volume is watertight whatever the
 /// topology and whatever rounding did to a sign.
 /// Source: Aldridge and Woods, robust geometry-independent shadow volumes, 2004; Kim, Kim and Turk, 2008.
-[[nodiscard]] Silhouette findSilhouette(const CasterSet& casters, const Vec4& light);
+[[nodiscard]] Silhouette findSilhouette(const CasterSet& casters, const Vec4& light, const SilhouetteOptions& options = {});
 
 }  // namespace umbrage::shadow

@@ -37,8 +37,8 @@ struct SurfaceCount {
 };
 
 /// How many caster surfaces lie between `point` and the light, by the rule the volumes count with, in double precision and by
-/// brute force over all triangles. `point` is relative to the origin of the casters. Surfaces edge-on to the light, and those
-/// in whose plane the point lies, do not count. Components with a nonzero entry in `skip` are left out.
+/// brute force over all triangles. `point` is relative to the origin of the casters. Surfaces that the silhouette leaves out, and
+/// those in whose plane the point lies, do not count. Components with a nonzero entry in `skip` are left out.
 [[nodiscard]] SurfaceCount countSurfaces(const CasterSet& casters, const Silhouette& silhouette, const Vec3& point,
                                          std::span<const std::uint8_t> skip = {});
 
