@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+
+#include "umbrage/gl/pass_state.hpp"
+
+namespace umbrage::gl {
+
+/// How many binding points of each kind the house uses, from 0; HostScope saves these and no more.
+inline constexpr int kUniformSlots = 2;
+inline constexpr int kStorageSlots = 5;
+inline constexpr int kTextureSlots = 2;
+
+/// A crossing of the border between a host's OpenGL state and ours: saves everything that a PassState and our draws can touch,
+/// sets the house baseline, and puts everything back at the end. Once per frame; also in contexts of our own.
+/// REQUIRES: no transform feedback, conditional rendering or query is active (they would count our draws).
+class HostScope {
+ public:
+  HostScope();
+  HostScope(const HostScope&) = delete;
+  HostScope& operator=(const HostScope&) = delete;
+  ~HostScope();
+
+  /// The host's draw framebuffer, as it was at the border.
+  [[nodiscard]] unsigned hostFramebuffer() const;
+  /// A baseline state that puts fragments where the host's own draws would: its first viewport, depth range and clip control.
+  [[nodiscard]] PassState hostPlacement() const;
+
+ private:
+  friend class Pass;
+  struct State;
+  std::unique_ptr<State> state_;
+  bool inPass_ = false;
+};
+
+}  // namespace umbrage::gl

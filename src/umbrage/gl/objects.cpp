@@ -1,0 +1,106 @@
+#include "umbrage/gl/objects.hpp"
+
+#include <epoxy/gl.h>
+
+#include <string>
+
+namespace umbrage::gl {
+namespace {
+
+GLenum internalFormat(Format format) {
+  switch (format) {
+    case Format::grey8: return GL_R8;
+    case Format::rgba8: return GL_RGBA8;
+    case Format::rgba16f: return GL_RGBA16F;
+    case Format::id32: return GL_R32UI;
+    case Format::depth32fStencil8: return GL_DEPTH32F_STENCIL8;
+    case Format::depth24Stencil8: return GL_DEPTH24_STENCIL8;
+  }
+  return GL_RGBA8;
+}
+
+// Errors that somebody else left behind must not be taken for ours.
+void forgetOldErrors() {
+  for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {
+  }
+}
+
+}  // namespace
+
+Handle::~Handle() {
+  if (name_ == 0) return;
+  switch (kind_) {
+    case Kind::none: break;
+    case Kind::buffer: glDeleteBuffers(1, &name_); break;
+    case Kind::texture: glDeleteTextures(1, &name_); break;
+    case Kind::framebuffer: glDeleteFramebuffers(1, &name_); break;
+    case Kind::vertexArray: glDeleteVertexArrays(1, &name_); break;
+    case Kind::program: glDeleteProgram(name_); break;
+  }
+}
+
+Buffer::Buffer() {
+  GLuint name = 0;
+  glCreateBuffers(1, &name);
+  handle_ = Handle(Handle::Kind::buffer, name);
+}
+
+Result<void> Buffer::set(std::span<const std::byte> bytes) {
+  forgetOldErrors();
+  // An empty buffer may not be bound for reading, so there is always at least one word.
+  const std::size_t size = bytes.empty() ? 16 : bytes.size();
+  glNamedBufferData(handle_.name(), static_cast<GLsizeiptr>(size), bytes.empty() ? nullptr : bytes.data(), GL_DYNAMIC_DRAW);
+  if (glGetError() == GL_OUT_OF_MEMORY)
+    return fail(ErrorCode::device, "graphics memory is short of " + std::to_string(size) + " bytes");
+  bytes_ = bytes.size();
+  return {};
+}
+
+Result<Texture> Texture::make(Format format, int width, int height) {
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  if (width < 1 || height < 1 || width > largest || height > largest)
+    return fail(ErrorCode::device, "this driver draws pictures of 1 to " + std::to_string(largest) + " pixels a side");
+  forgetOldErrors();
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &name);
+  Texture texture;
+  texture.handle_ = Handle(Handle::Kind::texture, name);
+  texture.format_ = format;
+  texture.width_ = width;
+  texture.height_ = height;
+  glTextureStorage2D(name, 1, internalFormat(format), width, height);
+  // Integer pictures are incomplete with the default linear filter, even for texelFetch.
+  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  if (glGetError() != GL_NO_ERROR) return fail(ErrorCode::device, "graphics memory is short for a picture");
+  return texture;
+}
+
+Result<Framebuffer> Framebuffer::make(const Texture* colour, const Texture* depthStencil) {
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  Framebuffer framebuffer;
+  framebuffer.handle_ = Handle(Handle::Kind::framebuffer, name);
+  const GLenum draw = colour != nullptr ? GL_COLOR_ATTACHMENT0 : GL_NONE;
+  if (colour != nullptr) glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, colour->name(), 0);
+  if (depthStencil != nullptr) glNamedFramebufferTexture(name, GL_DEPTH_STENCIL_ATTACHMENT, depthStencil->name(), 0);
+  glNamedFramebufferDrawBuffer(name, draw);
+  glNamedFramebufferReadBuffer(name, draw);
+  const GLenum status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    return fail(ErrorCode::device, "the driver refuses a framebuffer (status " + std::to_string(status) + ")");
+  return framebuffer;
+}
+
+VertexArray::VertexArray() {
+  GLuint name = 0;
+  glCreateVertexArrays(1, &name);
+  handle_ = Handle(Handle::Kind::vertexArray, name);
+}
+
+VertexArray::VertexArray(const Buffer& indices) : VertexArray() {
+  glVertexArrayElementBuffer(handle_.name(), indices.name());
+}
+
+}  // namespace umbrage::gl

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "umbrage/base/error.hpp"
+
+namespace umbrage::gl {
+
+/// The name of an OpenGL object, owned. REQUIRES of every object here: its context is current when it is used and when it dies.
+class Handle {
+ public:
+  enum class Kind { none, buffer, texture, framebuffer, vertexArray, program };
+  Handle() = default;
+  Handle(Kind kind, unsigned name) : kind_(kind), name_(name) {}
+  Handle(Handle&& other) noexcept : kind_(other.kind_), name_(std::exchange(other.name_, 0)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(kind_, other.kind_);
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  ~Handle();
+  [[nodiscard]] unsigned name() const { return name_; }
+
+ private:
+  Kind kind_ = Kind::none;
+  unsigned name_ = 0;
+};
+
+/// Bytes on the graphics card.
+class Buffer {
+ public:
+  Buffer();
+  /// Replaces the whole contents. Errors: ErrorCode::device when memory is short.
+  [[nodiscard]] Result<void> set(std::span<const std::byte> bytes);
+  template <class T>
+  [[nodiscard]] Result<void> set(std::span<const T> values) {
+    return set(std::as_bytes(values));
+  }
+  [[nodiscard]] unsigned name() const { return handle_.name(); }
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+ private:
+  Handle handle_;
+  std::size_t bytes_ = 0;
+};
+
+enum class Format { grey8, rgba8, rgba16f, id32, depth32fStencil8, depth24Stencil8 };
+
+/// A picture on the graphics card, one level, one sample.
+class Texture {
+ public:
+  Texture() = default;
+  /// Errors: ErrorCode::device when the size is beyond the driver's or memory is short.
+  [[nodiscard]] static Result<Texture> make(Format format, int width, int height);
+  [[nodiscard]] unsigned name() const { return handle_.name(); }
+  [[nodiscard]] Format format() const { return format_; }
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+
+ private:
+  Handle handle_;
+  Format format_ = Format::grey8;
+  int width_ = 0, height_ = 0;
+};
+
+/// One colour picture (optional) and one depth-stencil picture (optional) to draw into.
+class Framebuffer {
+ public:
+  Framebuffer() = default;
+  /// Errors: ErrorCode::device when the driver finds the combination incomplete. REQUIRES: the textures outlive it.
+  [[nodiscard]] static Result<Framebuffer> make(const Texture* colour, const Texture* depthStencil);
+  [[nodiscard]] unsigned name() const { return handle_.name(); }
+
+ private:
+  Handle handle_;
+};
+
+/// Which buffer indices come from. Vertex shaders fetch positions themselves by gl_VertexID, so there are no attributes.
+class VertexArray {
+ public:
+  VertexArray();
+  /// 32-bit indices. REQUIRES: the buffer outlives this.
+  explicit VertexArray(const Buffer& indices);
+  [[nodiscard]] unsigned name() const { return handle_.name(); }
+
+ private:
+  Handle handle_;
+};
+
+}  // namespace umbrage::gl

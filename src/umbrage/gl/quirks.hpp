@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace umbrage::gl {
+
+/// What is known to be peculiar about a driver, found once per context. Every work-around in the program asks here.
+struct Quirks {
+  /// The rasteriser runs on the CPU: fill is dear, and the first frames compile shaders.
+  bool software = false;
+  /// llvmpipe's timer queries measure submission, not rasterisation (4.7 ms reported, 125 ms passed). Nothing here uses them:
+  /// phases are timed by the wall clock between two finishes, which is right on every driver.
+  bool timerQueriesMeasureSubmissionOnly = false;
+  /// The largest buffer a shader may read; 128 MiB on llvmpipe, 2 GiB and more on GPUs.
+  std::uint64_t maxStorageBytes = 0;
+  /// The largest width and height of a target.
+  int maxTextureSize = 0;
+};
+
+/// Of the current context.
+[[nodiscard]] Quirks findQuirks();
+
+/// "llvmpipe (LLVM 15.0.6, 256 bits)": the renderer string of the current context.
+[[nodiscard]] std::string currentRenderer();
+
+}  // namespace umbrage::gl
