@@ -35,7 +35,7 @@ const std::vector<ForeignRule>& foreignRules() {
       {"cairo", {"report"}},
       {"gif_lib.h", {"report"}},
       {"png.h", {"png"}},
-      {"erfa.h", {"sun"}},
+      {"erfa", {"sun"}},
       {"date/", {"sun"}},
       {"CLI/", {"apps"}},
       {"gtest/", {"tests"}},
