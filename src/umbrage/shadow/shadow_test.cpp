@@ -12,6 +12,7 @@
 #include "umbrage/shadow/composite.hpp"
 #include "umbrage/shadow/eye_count.hpp"
 #include "umbrage/shadow/facing.hpp"
+#include "umbrage/shadow/layering.hpp"
 #include "umbrage/shadow/light_mask.hpp"
 #include "umbrage/shadow/silhouette.hpp"
 #include "umbrage/shadow/volume.hpp"
@@ -296,6 +297,40 @@ TEST(EyeCount, HandsCastersNearTheEyeToZFail) {
   EXPECT_EQ(countAtEye(casters, s, onSide + Vec3(0.1, 0, 0)).byZFailCount, 0u);
   // In the quad's plane but before the edge: not near the bounded side.
   EXPECT_EQ(countAtEye(casters, s, edgePoint - 0.3 * fromLight).byZFailCount, 0u);
+}
+
+// --- layering ------------------------------------------------------------------------------------------------------------
+
+TEST(LayeringBound, IsExactForAStackAndForAFence) {
+  Soup stack;
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    for (const Vec3f& c : {Vec3f(0, 0, 0), Vec3f(1, 0, 0), Vec3f(0, 1, 0)}) stack.positions.push_back(c + Vec3f(0, 0, float(i)));
+    stack.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const CasterSet layers = buildCasters(stack.positions, stack.triangles);
+  EXPECT_EQ(layeringBound(layers, findSilhouette(layers, {0, 0, 1, 0})), 300);
+  EXPECT_EQ(layeringBound(layers, findSilhouette(layers, {0.3, 0.3, 900, 1})), 300);
+  EXPECT_LT(layeringBound(layers, findSilhouette(layers, {0.9, 0.1, 0.01, 0}), 5), 12);  // almost from the side
+
+  Soup fence;  // separate boxes side by side: seen from the front no ray meets two
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    for (const Vec3f& c : kCubeCorners) fence.positions.push_back(c + Vec3f(2.0f * float(i), 0, 0));
+    for (const mesh::Triangle& t : kCubeFaces) fence.triangles.push_back({8 * i + t[0], 8 * i + t[1], 8 * i + t[2]});
+  }
+  const CasterSet posts = buildCasters(fence.positions, fence.triangles);
+  EXPECT_EQ(layeringBound(posts, findSilhouette(posts, {0, 1, 0.2, 0}), 0), 1);
+  EXPECT_GT(layeringBound(posts, findSilhouette(posts, {1, 0.0001, 0.0001, 0}), 0), 90);
+}
+
+RC_GTEST_PROP(LayeringBound, IsNeverTooSmall, ()) {
+  const Soup soup = latticeSoup();
+  const CasterSet casters = buildCasters(soup.positions, soup.triangles);
+  const Silhouette s = findSilhouette(casters, latticeLight(), {.countEverySurface = *rc::gen::inRange(0, 2) == 1});
+  const int bound = layeringBound(casters, s, *rc::gen::inRange(0, 4));
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 point = Vec3(latticePoint(7)) + Vec3(0.3113, 0.2371, 0.1709);
+    RC_ASSERT(countSurfaces(casters, s, point).count <= bound);
+  }
 }
 
 // --- facing, masks, pictures ---------------------------------------------------------------------------------------------

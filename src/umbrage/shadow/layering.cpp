@@ -1,0 +1,185 @@
+#include "umbrage/shadow/layering.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace umbrage::shadow {
+namespace {
+
+constexpr std::array<int, 2> kResolutions{64, 512};
+constexpr std::uint32_t kNobody = ~std::uint32_t{0};
+
+// A convex polygon in the plane of a grid, whose cells are the unit squares; at most a triangle cut by five half-spaces.
+struct Polygon {
+  std::array<Vec2, 10> corners;
+  int size = 0;
+  void add(const Vec2& p) { corners[size++] = p; }
+};
+
+// Counts per cell, over one square of directions. Triangles of one convex solid count once a cell: a ray meets its lit side once.
+class Grid {
+ public:
+  explicit Grid(int resolution)
+      : resolution_(resolution), count_(cells(), 0), last_(cells(), kNobody) {}
+
+  /// `solid`: the convex solid the polygon belongs to, or kNobody.
+  void add(const Polygon& polygon, std::uint32_t solid) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (int i = 0; i < polygon.size; ++i) {
+      low = std::min(low, polygon.corners[i].y);
+      high = std::max(high, polygon.corners[i].y);
+    }
+    for (int row = cell(low - kSlack); row <= cell(high + kSlack); ++row) addRow(polygon, row, solid);
+  }
+
+  [[nodiscard]] int largest() const { return *std::max_element(count_.begin(), count_.end()); }
+
+ private:
+  // Rounding of projected coordinates, in cells: generous, since a cell too many only makes the bound larger.
+  static constexpr double kSlack = 1e-6;
+
+  [[nodiscard]] std::size_t cells() const { return std::size_t(resolution_) * std::size_t(resolution_); }
+  [[nodiscard]] int cell(double v) const { return static_cast<int>(std::clamp(std::floor(v), 0.0, resolution_ - 1.0)); }
+
+  // The cells of one row that the polygon touches: the extent in x of its part between y = row and y = row + 1.
+  void addRow(const Polygon& polygon, int row, std::uint32_t solid) {
+    double left = std::numeric_limits<double>::infinity(), right = -left;
+    const auto take = [&](double x) {
+      left = std::min(left, x);
+      right = std::max(right, x);
+    };
+    // The outermost rows also hold what rounding pushed beyond the border.
+    const double bottom = row == 0 ? -1.0 : row - kSlack, top = row == resolution_ - 1 ? row + 2.0 : row + 1 + kSlack;
+    for (int i = 0; i < polygon.size; ++i) {
+      const Vec2 a = polygon.corners[i], b = polygon.corners[(i + 1) % polygon.size];
+      if (a.y >= bottom && a.y <= top) take(a.x);
+      for (const double y : {bottom, top})
+        if ((a.y < y) != (b.y < y)) take(a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)));
+    }
+    if (left > right) return;
+    for (int column = cell(left - kSlack); column <= cell(right + kSlack); ++column) {
+      const std::size_t i = std::size_t(row) * std::size_t(resolution_) + std::size_t(column);
+      if (solid != kNobody && last_[i] == solid) continue;
+      last_[i] = solid;
+      ++count_[i];
+    }
+  }
+
+  int resolution_;
+  std::vector<int> count_;
+  std::vector<std::uint32_t> last_;
+};
+
+// Calls visit(corners relative to the light, solid) for every counted triangle, solids' triangles in succession.
+template <class Visit>
+void forEachCounted(const CasterSet& casters, const Silhouette& silhouette, const Visit& visit) {
+  const Vec4& light = silhouette.light;
+  for (std::uint32_t t = 0; t < casters.triangles.size(); ++t) {
+    if (silhouette.side[t] == 0) continue;
+    std::array<Vec3, 3> corners;
+    for (int k = 0; k < 3; ++k) corners[k] = casters.corner(t, k) - (light.w != 0.0 ? Vec3(light) : Vec3(0.0));
+    const bool lit = silhouette.side[t] * casters.outward[t] > 0;
+    visit(corners, lit ? casters.componentOf[t] : kNobody);
+  }
+}
+
+int boundAlong(const CasterSet& casters, const Silhouette& silhouette, int resolution) {
+  const Vec3 direction = glm::normalize(Vec3(silhouette.light));
+  const Vec3 helper = std::abs(direction.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+  const Vec3 u = glm::normalize(glm::cross(direction, helper)), v = glm::cross(direction, u);
+  Vec2 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
+  forEachCounted(casters, silhouette, [&](const std::array<Vec3, 3>& corners, std::uint32_t) {
+    for (const Vec3& c : corners) {
+      const Vec2 p(glm::dot(c, u), glm::dot(c, v));
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+  });
+  if (!(low.x <= high.x)) return 0;
+  const double scale = resolution / std::max({high.x - low.x, high.y - low.y, std::numeric_limits<double>::min()});
+  Grid grid(resolution);
+  forEachCounted(casters, silhouette, [&](const std::array<Vec3, 3>& corners, std::uint32_t solid) {
+    Polygon polygon;
+    for (const Vec3& c : corners) polygon.add((Vec2(glm::dot(c, u), glm::dot(c, v)) - low) * scale);
+    grid.add(polygon, solid);
+  });
+  return grid.largest();
+}
+
+// The part of a polygon in front of a plane through the light.
+std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, const Vec3& inward) {
+  std::vector<Vec3> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    const double da = glm::dot(inward, a), db = glm::dot(inward, b);
+    if (da >= 0.0) kept.push_back(a);
+    if ((da > 0.0 && db < 0.0) || (da < 0.0 && db > 0.0)) kept.push_back(a + (b - a) * (da / (da - db)));
+  }
+  return kept;
+}
+
+// One face of the cube around a point light: +x, +y, +z, -x, -y, -z.
+struct CubeFace {
+  int axis, u, v;
+  double sign;
+  explicit CubeFace(int index) : axis(index % 3), u((index + 1) % 3), v((index + 2) % 3), sign(index < 3 ? 1.0 : -1.0) {}
+
+  [[nodiscard]] bool mayTouch(const std::array<Vec3, 3>& corners) const {
+    const auto allBeyond = [&](int other, double side) {
+      return std::all_of(corners.begin(), corners.end(),
+                         [&](const Vec3& c) { return side * c[other] > sign * c[axis]; });
+    };
+    return !allBeyond(u, 1.0) && !allBeyond(u, -1.0) && !allBeyond(v, 1.0) && !allBeyond(v, -1.0);
+  }
+
+  // The triangle as the face sees it, in cells. A corner at the light itself cannot be projected; a triangle with one is edge-on.
+  [[nodiscard]] Polygon project(const std::array<Vec3, 3>& corners, int resolution) const {
+    std::vector<Vec3> cut(corners.begin(), corners.end());
+    for (const int other : {u, v}) {
+      for (const double side : {1.0, -1.0}) {
+        Vec3 inward(0.0);
+        inward[axis] = sign;
+        inward[other] = side;
+        cut = clipped(cut, inward);
+      }
+    }
+    Polygon polygon;
+    for (const Vec3& c : cut)
+      if (const double depth = sign * c[axis]; depth > 0.0)
+        polygon.add((Vec2(c[u], c[v]) / depth * 0.5 + 0.5) * double(resolution));
+    return polygon;
+  }
+};
+
+int boundAround(const CasterSet& casters, const Silhouette& silhouette, int resolution) {
+  std::vector<Grid> grids(6, Grid(resolution));
+  forEachCounted(casters, silhouette, [&](const std::array<Vec3, 3>& corners, std::uint32_t solid) {
+    for (int f = 0; f < 6; ++f) {
+      const CubeFace face(f);
+      if (!face.mayTouch(corners)) continue;
+      const Polygon polygon = face.project(corners, resolution);
+      if (polygon.size > 0) grids[f].add(polygon, solid);
+    }
+  });
+  int largest = 0;
+  for (const Grid& grid : grids) largest = std::max(largest, grid.largest());
+  return largest;
+}
+
+}  // namespace
+
+int layeringBound(const CasterSet& casters, const Silhouette& silhouette, int enough) {
+  auto bound = static_cast<int>(std::count_if(silhouette.side.begin(), silhouette.side.end(), [](int s) { return s != 0; }));
+  for (const int resolution : kResolutions) {
+    if (bound <= enough) break;
+    const int finer = silhouette.light.w == 0.0 ? boundAlong(casters, silhouette, resolution)
+                                                : boundAround(casters, silhouette, resolution);
+    bound = std::min(bound, finer);
+  }
+  return bound;
+}
+
+}  // namespace umbrage::shadow
