@@ -1,18 +1,19 @@
 #include "umbrage/sun/sun.hpp"
 
 #include <erfa.h>
-#include <erfam.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace umbrage::sun {
 namespace {
 
 constexpr double kUnixEpoch = 2440587.5;  // Julian date of 1970-01-01
 constexpr double kMillisecondsPerDay = 86400e3;
-constexpr double kTtMinusTai = 32.184;                    // seconds
-constexpr double kSolarParallax = 8.794143 * ERFA_DAS2R;  // equatorial horizontal parallax at 1 au
+constexpr double kTtMinusTai = 32.184;                                          // seconds
+constexpr double kSolarParallax = Angle::degrees(8.794143 / 3600.0).radians();  // equatorial, at 1 au
 constexpr double kPi = std::numbers::pi;
 
 // A Julian date in two parts, the first a whole number plus a half, as ERFA likes it.

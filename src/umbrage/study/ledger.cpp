@@ -1,0 +1,65 @@
+#include "umbrage/study/ledger.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace umbrage::study {
+namespace {
+
+std::string durationText(std::chrono::milliseconds step) {
+  const double minutes = double(step.count()) / 60e3;
+  return minutes == std::floor(minutes) ? fmt::format("{:.0f} min", minutes) : fmt::format("{:g} s", minutes * 60.0);
+}
+
+std::string periodText(const Period& period, const PeriodSteps& steps) {
+  const auto night =
+      std::count_if(steps.steps.begin(), steps.steps.end(), [](const PeriodStep& s) { return !s.sunIsUp(); });
+  std::string text = fmt::format("{} to {}, every {}: {} steps", sun::timeText(period.from), sun::timeText(period.to),
+                                 durationText(period.step), steps.steps.size());
+  if (night > 0) text += fmt::format(", {} of them with the sun below the horizon", night);
+  return text;
+}
+
+std::string northText(const scene::Scene& scene) {
+  const std::string axis = scene.up == scene::UpAxis::y ? "-Z, up +Y" : "+Y, up +Z";
+  const double offset = scene.northOffset.degrees();
+  return offset == 0.0 ? "true north is " + axis : fmt::format("true north {:g} degrees clockwise of {}", offset, axis);
+}
+
+std::string castersText(const std::vector<std::string>& patterns) {
+  if (patterns.empty()) return "everything but the ground";
+  std::string text = "only";
+  for (const std::string& pattern : patterns) text += " '" + pattern + "'";
+  return text;
+}
+
+}  // namespace
+
+std::string placeText(const sun::Place& place) {
+  const double latitude = place.latitude.degrees(), longitude = place.longitude.degrees();
+  return fmt::format("{:.4f} {}, {:.4f} {}", std::abs(latitude), latitude < 0 ? 'S' : 'N', std::abs(longitude),
+                     longitude < 0 ? 'W' : 'E');
+}
+
+std::vector<LedgerLine> ledgerOf(const scene::Scene& scene, const ProfileOptions& options, const PeriodSteps& steps,
+                                 const shadow::Traits& technique) {
+  const Period& period = options.period;
+  const std::string clock = period.zone.kind == sun::Zone::Kind::solar   ? "true solar time"
+                            : period.zone.kind == sun::Zone::Kind::fixed ? "fixed"
+                                                                         : period.zone.name;
+  return {{"Place", placeText(period.place)},
+          {"Date", sun::dateText(period.date)},
+          {"Clock", clock + ", " + steps.offset},
+          {"Period", periodText(period, steps)},
+          {"Sun", "centre of the disc, geometric (no refraction), declination moving, horizon at 0 degrees"},
+          {"North", northText(scene)},
+          {"Unit", fmt::format("1 unit of the file = {:g} m", scene.metresPerUnit)},
+          {"Casters", castersText(options.casters)},
+          {"In shadow", "no direct sun: cast shadows and faces turned away; night counts as neither"},
+          {"Time", "each step stands for the time of the period nearest to it"},
+          {"Made by", fmt::format("Umbrage {}, {}", UMBRAGE_VERSION, technique.name)}};
+}
+
+}  // namespace umbrage::study
