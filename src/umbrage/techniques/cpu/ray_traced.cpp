@@ -1,0 +1,165 @@
+#include <chrono>
+
+#include "umbrage/shadow/facing.hpp"
+#include "umbrage/techniques/cpu/detail/ray_traced.hpp"
+#include "umbrage/trace/light_rays.hpp"
+#include "umbrage/trace/tiles.hpp"
+#include "umbrage/trace/visible_surfaces.hpp"
+
+namespace umbrage::techniques::detail {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Shadow borders may be displaced by this part of a pixel's width where a ray's start is lifted off its surface.
+constexpr double kPixelPart = 0.125;
+// Below this sine between view and surface the plane says less about the depth than the surface buffer does.
+constexpr double kEdgeOn = 1e-4;
+
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// A triangle's plane: points p with dot(normal, p) = offset; the normal is of unit length, or zero.
+struct Plane {
+  Vec3 normal;
+  double offset;
+};
+
+std::vector<Plane> planesOf(const scene::Surfaces& surfaces) {
+  std::vector<Plane> planes(surfaces.triangles.size());
+  for (std::uint32_t t = 0; t < planes.size(); ++t) {
+    const Vec3 normal = surfaces.normal(t);
+    const double length = glm::length(normal);
+    const Vec3 unit = length > 0.0 ? normal / length : Vec3(0.0);
+    planes[t] = {unit, glm::dot(unit, surfaces.corner(t, 0))};
+  }
+  return planes;
+}
+
+/// What the pixels of one light's mask are computed from.
+struct Shadowing {
+  const scene::Surfaces& surfaces;
+  const std::vector<Plane>& planes;
+  const shadow::SurfaceBuffer& seen;
+  const trace::LightRays& lightRays;
+  const scene::Light& light;
+  std::vector<std::uint8_t> facing;  ///< per triangle
+  Vec3 eye;                          ///< relative to the origin of the surfaces
+  scene::PixelRays rays;
+  double pixelWidth;  ///< at depth 1
+};
+
+/// The point a pixel's centre shows, in double precision.
+Vec3 surfacePoint(const Shadowing& s, int x, int y, const Plane& plane) {
+  const Vec3 direction = s.rays.through(x + 0.5, y + 0.5);
+  const double slope = glm::dot(plane.normal, direction);
+  const double depth =
+      std::abs(slope) < kEdgeOn ? s.seen.depth(x, y) : (plane.offset - glm::dot(plane.normal, s.eye)) / slope;
+  return s.eye + depth * direction;
+}
+
+void shadePacket(const Shadowing& s, const trace::Tile& tile, int x, int y, image::GreyImage& lit) {
+  trace::SurfacePoints8 points;
+  trace::forEachLane(tile, x, y, [&](int lane, int px, int py) {
+    const std::uint32_t triangle = s.seen.triangle(px, py);
+    if (triangle == shadow::kNoTriangle || s.facing[triangle] == 0) return;
+    const Plane& plane = s.planes[triangle];
+    const Vec3 point = surfacePoint(s, px, py, plane);
+    if (!scene::insideCone(s.light, point + s.surfaces.origin)) return;
+    const auto k = static_cast<std::size_t>(lane);
+    const bool towards = glm::dot(plane.normal, scene::towardsLight(s.lightRays.light(), point)) >= 0.0;
+    points.position[k] = point;
+    points.normal[k] = towards ? plane.normal : -plane.normal;
+    points.triangle[k] = triangle;
+    points.precision[k] = kPixelPart * s.pixelWidth * double(s.seen.depth(px, py));
+    points.active |= 1u << lane;
+  });
+  if (points.active == 0) return;
+  const std::uint32_t lanes = points.active & ~s.lightRays.hidden(points);
+  trace::forEachLane(tile, x, y, [&](int lane, int px, int py) {
+    if ((lanes >> lane & 1u) != 0) lit(px, py) = 255;
+  });
+}
+
+image::GreyImage coverage(const shadow::SurfaceBuffer& seen) {
+  image::GreyImage covered(seen.triangle.width(), seen.triangle.height());
+  for (std::size_t i = 0; i < covered.size(); ++i)
+    covered.pixels()[i] = seen.triangle.pixels()[i] != shadow::kNoTriangle ? 1 : 0;
+  return covered;
+}
+
+class RayTraced final : public shadow::Technique {
+ public:
+  RayTraced() : traits_(rayTracedTraits()) {}
+  const shadow::Traits& traits() const override { return traits_; }
+
+  Result<void> prepare(std::shared_ptr<const shadow::Geometry> geometry) override {
+    auto built = trace::Occlusion::build({geometry, &geometry->surfaces});
+    if (!built) return tl::unexpected(built.error());
+    planes_ = planesOf(geometry->surfaces);
+    occlusion_.emplace(std::move(*built));
+    return {};
+  }
+
+  Result<shadow::Shading> shade(const shadow::Frame& frame) override {
+    UMBRAGE_CHECK(occlusion_.has_value(), "shade() before prepare()");
+    const auto start = Clock::now();
+    auto seen = trace::visibleSurfaces(*occlusion_, frame.camera);
+    if (!seen) return tl::unexpected(seen.error());
+    shadow::Shading out;
+    out.surface = std::move(*seen);
+    out.stats.phases.push_back({"surface", millisecondsSince(start)});
+    for (const scene::Light& light : frame.lights) {
+      const auto begin = Clock::now();
+      auto mask = maskOf(frame.camera, light, out.surface);
+      if (!mask) return tl::unexpected(mask.error());
+      out.masks.push_back(std::move(*mask));
+      out.stats.phases.push_back({"shadow", millisecondsSince(begin)});
+      out.stats.lights.push_back({"ray_traced", "one ray per lit-facing pixel towards the light", 0, 0, 0, 0, 0});
+    }
+    return out;
+  }
+
+ private:
+  Result<shadow::LightMask> maskOf(const scene::Camera& camera, const scene::Light& light,
+                                   const shadow::SurfaceBuffer& seen) const {
+    const scene::Surfaces& surfaces = occlusion_->surfaces();
+    const trace::LightRays lightRays(*occlusion_, light);
+    const Vec3 eye = camera.eye - surfaces.origin;
+    const scene::PixelRays rays = scene::pixelRays(camera);
+    const Shadowing s{surfaces,
+                      planes_,
+                      seen,
+                      lightRays,
+                      light,
+                      shadow::visibleSideFacesLight(surfaces, Vec4(eye, 1.0), lightRays.light()),
+                      eye,
+                      rays,
+                      std::min(glm::length(rays.dx), glm::length(rays.dy))};
+    shadow::LightMask mask{{camera.width, camera.height, 0}, {}, coverage(seen)};
+    const auto done = trace::forEachTile(camera.width, camera.height, [&](const trace::Tile& tile) {
+      for (int y = tile.y0; y < tile.y1; y += 2)
+        for (int x = tile.x0; x < tile.x1; x += 4) shadePacket(s, tile, x, y, mask.light);
+    });
+    if (!done) return tl::unexpected(done.error());
+    return mask;
+  }
+
+  shadow::Traits traits_;
+  std::optional<trace::Occlusion> occlusion_;
+  std::vector<Plane> planes_;
+};
+
+}  // namespace
+
+shadow::Traits rayTracedTraits() {
+  shadow::Traits traits;
+  traits.name = "ray_traced";
+  traits.summary = "One ray from every visible surface point to the light (Embree): the truth all others are judged by.";
+  return traits;
+}
+
+Result<std::unique_ptr<shadow::Technique>> makeRayTraced() { return std::make_unique<RayTraced>(); }
+
+}  // namespace umbrage::techniques::detail

@@ -1,0 +1,161 @@
+#include "umbrage/trace/light_rays.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "umbrage/math/predicates.hpp"
+#include "umbrage/trace/detail/embree_scene.hpp"
+
+namespace umbrage::trace {
+namespace {
+
+// A ray in single precision knows its far end to a few 2^-24 of its length.
+constexpr double kRelativeCut = 0x1p-20;
+// Hits within this many resolutions of a lifted start are looked at again in double precision.
+constexpr double kNearResolutions = 64.0;
+// So are triangles within this sine of the ray's direction, and hits in the last part of a ray: rounding errs by a few 2^-24 of
+// the ray's length divided by that sine.
+constexpr float kEdgeOn = 1e-4f;
+constexpr float kLastPart = 0.99f;
+
+double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+// The casters that rays ending `cut` + kRelativeCut x length before the light may miss, and that hide anything at all.
+std::vector<std::uint32_t> castersNear(const Occlusion& occlusion, const Vec4& light, double cut) {
+  std::vector<std::uint32_t> found;
+  const scene::Surfaces& surfaces = occlusion.surfaces();
+  const Vec3 at(light);
+  const double longest = glm::length(at - surfaces.bounds.centre()) + surfaces.bounds.radius();
+  const double reach = cut + 2.0 * kRelativeCut * longest;
+  const auto apart = [&](const Vec3& min, const Vec3& max) {
+    return largest(glm::max(glm::max(min - at, at - max), Vec3(0.0))) > reach;
+  };
+  if (surfaces.casterBounds.empty() || apart(surfaces.casterBounds.min, surfaces.casterBounds.max)) return found;
+  for (const std::uint32_t t : occlusion.trees().casterTriangle) {
+    const Corners c = occlusion.corners(t);
+    if (apart(glm::min(c.a, glm::min(c.b, c.c)), glm::max(c.a, glm::max(c.b, c.c)))) continue;
+    if (distance(at, c) <= reach && lightSide(c.a, c.b, c.c, light) != 0) found.push_back(t);
+  }
+  return found;
+}
+
+// Whether `triangle` is the surface the point lies on, or one that lies upon it as far as the resolution can tell.
+bool sameSurface(const Corners& triangle, const Vec3& point, double resolution) {
+  return distance(point, triangle) <= resolution;
+}
+
+struct Query {
+  RTCIntersectContext context;
+  const Occlusion* occlusion;
+  const SurfacePoints8* points;
+  const Vec4* light;
+  std::array<float, 8> exactBelow;  ///< hits at smaller parameters are decided in double precision
+  float exactAbove;                 ///< and at larger ones
+};
+
+bool hidesPoint(const Query& query, std::uint32_t triangle, std::size_t k) {
+  if (triangle == query.points->triangle[k]) return false;
+  const Corners corners = query.occlusion->corners(triangle);
+  const Vec3& point = query.points->position[k];
+  return hides(corners, point, *query.light) && !sameSurface(corners, point, query.occlusion->resolution());
+}
+
+// A triangle seen edge-on from the light: single precision hits some that lie in a plane with the light and hide nothing.
+bool edgeOn(const RTCFilterFunctionNArguments& arguments, unsigned i) {
+  const Vec3f direction(RTCRayN_dir_x(arguments.ray, arguments.N, i), RTCRayN_dir_y(arguments.ray, arguments.N, i),
+                        RTCRayN_dir_z(arguments.ray, arguments.N, i));
+  const Vec3f normal(RTCHitN_Ng_x(arguments.hit, arguments.N, i), RTCHitN_Ng_y(arguments.hit, arguments.N, i),
+                     RTCHitN_Ng_z(arguments.hit, arguments.N, i));
+  return std::abs(glm::dot(direction, normal)) <= kEdgeOn * glm::length(direction) * glm::length(normal);
+}
+
+void rejectFalseHits(const RTCFilterFunctionNArguments* arguments) {
+  const auto* query = reinterpret_cast<const Query*>(arguments->context);
+  const std::vector<std::uint32_t>& triangles = query->occlusion->trees().casterTriangle;
+  for (unsigned i = 0; i < arguments->N; ++i) {
+    if (arguments->valid[i] != -1) continue;
+    const std::size_t k = RTCRayN_id(arguments->ray, arguments->N, i);
+    const float t = RTCRayN_tfar(arguments->ray, arguments->N, i);
+    if (t >= query->exactBelow[k] && t <= query->exactAbove && !edgeOn(*arguments, i)) continue;
+    const std::uint32_t triangle = triangles[RTCHitN_primID(arguments->hit, arguments->N, i)];
+    if (!hidesPoint(*query, triangle, k)) arguments->valid[i] = 0;
+  }
+}
+
+struct Start {
+  Vec3 from;
+  double exactBelow;  ///< distance from `from`
+};
+
+// Lifted off the surface where that is precise enough; else a little behind it, with every hit looked at in double precision.
+Start startOf(const Vec3& point, const Vec3& normal, const Vec3& towards, double length, bool finite, double precision,
+              double resolution) {
+  const double height = glm::dot(normal, towards);  // of the light above the surface (for a direction: the sine)
+  const double lift = finite ? std::min(resolution, 0.5 * height) : resolution;
+  if (lift * length <= precision * height) return {point + lift * normal, kNearResolutions * resolution};
+  return {point - (2.0 * resolution / length) * towards, std::numeric_limits<double>::infinity()};
+}
+
+}  // namespace
+
+LightRays::LightRays(const Occlusion& occlusion, const scene::Light& light)
+    : occlusion_(occlusion), light_(scene::homogeneous(light, occlusion.surfaces().origin)) {
+  if (light_.w == 0.0) return;
+  cut_ = 4.0 * occlusion.resolution() + 0x1p-21 * largest(Vec3(light_));
+  nearLight_ = castersNear(occlusion, light_, cut_);
+}
+
+std::uint32_t LightRays::hidden(const SurfacePoints8& points) const {
+  const Trees& trees = occlusion_.trees();
+  if (points.active == 0 || trees.casterTriangle.empty()) return 0;
+  Query query;
+  rtcInitIntersectContext(&query.context);
+  query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  query.context.filter = rejectFalseHits;
+  query.occlusion = &occlusion_;
+  query.points = &points;
+  query.light = &light_;
+  query.exactAbove = light_.w == 0.0 ? std::numeric_limits<float>::infinity() : kLastPart;
+
+  RTCRay8 rays;
+  alignas(32) int valid[8];
+  for (std::size_t k = 0; k < 8; ++k) {
+    valid[k] = 0;
+    if ((points.active >> k & 1u) == 0) continue;
+    const Vec3 towards = scene::towardsLight(light_, points.position[k]);
+    const double length = glm::length(towards);
+    const Start start = startOf(points.position[k], points.normal[k], towards, length, light_.w != 0.0,
+                                points.precision[k], occlusion_.resolution());
+    const double end = light_.w == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 - kRelativeCut - cut_ / length;
+    if (!(end > 0.0)) continue;
+    const Vec3f from(start.from);
+    const Vec3f along(light_.w == 0.0 ? towards : Vec3(light_) - Vec3(from));
+    rays.org_x[k] = from.x, rays.org_y[k] = from.y, rays.org_z[k] = from.z;
+    rays.dir_x[k] = along.x, rays.dir_y[k] = along.y, rays.dir_z[k] = along.z;
+    rays.tnear[k] = 0.0f;
+    rays.tfar[k] = static_cast<float>(end);
+    rays.time[k] = 0.0f;
+    rays.mask[k] = ~0u;
+    rays.id[k] = static_cast<unsigned>(k);
+    rays.flags[k] = 0;
+    query.exactBelow[k] = static_cast<float>(start.exactBelow / length);
+    valid[k] = -1;
+  }
+  detail::occluded(trees, valid, query.context, rays);
+  std::uint32_t hidden = nearLight_.empty() ? 0 : hiddenNearLight(points);
+  for (std::size_t k = 0; k < 8; ++k) hidden |= valid[k] != 0 && rays.tfar[k] < 0.0f ? 1u << k : 0u;
+  return hidden;
+}
+
+std::uint32_t LightRays::hiddenNearLight(const SurfacePoints8& points) const {
+  std::uint32_t hidden = 0;
+  const Query query{{}, &occlusion_, &points, &light_, {}, 0.0f};
+  for (std::size_t k = 0; k < 8; ++k)
+    if ((points.active >> k & 1u) != 0 &&
+        std::any_of(nearLight_.begin(), nearLight_.end(), [&](std::uint32_t t) { return hidesPoint(query, t, k); }))
+      hidden |= 1u << k;
+  return hidden;
+}
+
+}  // namespace umbrage::trace

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "umbrage/scene/light.hpp"
+#include "umbrage/trace/occlusion.hpp"
+
+namespace umbrage::trace {
+
+/// Eight points on surfaces, relative to the origin of the surfaces.
+struct SurfacePoints8 {
+  std::array<Vec3, 8> position;           ///< on the triangle's plane
+  std::array<Vec3, 8> normal;             ///< unit, on the light's side
+  std::array<std::uint32_t, 8> triangle;  ///< the one the point lies on; shadow::kNoTriangle: none
+  std::array<double, 8> precision;        ///< shadow borders may be displaced by this much along the surface, in scene units
+  std::uint32_t active = 0;               ///< bit k: point k is there
+};
+
+/// Shadow rays towards one light: whether the segment from a surface point to the light meets a caster.
+///
+/// 1. A surface does not shadow itself, nor do surfaces nearer to it than Occlusion::resolution() that cover the point:
+///    coincident and coplanar ones.
+/// 2. A caster whose plane holds the light hides nothing; one near the light or touching it is decided in double precision.
+/// 3. Points are lifted off their surface by the resolution, which displaces shadow borders by resolution / tan(elevation of
+///    the light). Where that is more than the asked precision, every candidate is decided in double precision.
+/// REQUIRES: outlived by its Occlusion.
+class LightRays {
+ public:
+  LightRays(const Occlusion& occlusion, const scene::Light& light);
+
+  /// Bit k: point k is hidden from the light. REQUIRES: each active point's normal does not point away from the light.
+  [[nodiscard]] std::uint32_t hidden(const SurfacePoints8& points) const;
+
+  /// The light, homogeneous and relative to the origin of the surfaces.
+  [[nodiscard]] const Vec4& light() const { return light_; }
+
+ private:
+  [[nodiscard]] std::uint32_t hiddenNearLight(const SurfacePoints8& points) const;
+
+  const Occlusion& occlusion_;
+  Vec4 light_;
+  double cut_ = 0.0;  ///< rays end this far from the light, plus a part of their length
+  std::vector<std::uint32_t> nearLight_;  ///< casters that the shortened rays may miss
+};
+
+}  // namespace umbrage::trace

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+
+#include "umbrage/math/vec.hpp"
+
+namespace umbrage::trace {
+
+/// Three corners in double precision.
+struct Corners {
+  Vec3 a, b, c;
+};
+
+/// The parameter t > 0 at which `from` + t x `direction` meets a triangle, border included; nothing when it misses or runs in
+/// the triangle's plane. Double precision, without tolerance.
+[[nodiscard]] std::optional<double> crossing(const Vec3& from, const Vec3& direction, const Corners& triangle);
+
+/// Whether a triangle lies between a point and a homogeneous light: they lie on different sides of its plane and the line through
+/// both passes inside it, border included. A triangle whose plane holds the light or the point hides nothing.
+/// REQUIRES: corners in lexicographic order (see lightSide; not checked).
+[[nodiscard]] bool hides(const Corners& triangle, const Vec3& point, const Vec4& light);
+
+/// Distance from a point to a triangle, filled.
+[[nodiscard]] double distance(const Vec3& point, const Corners& triangle);
+
+}  // namespace umbrage::trace

@@ -1,0 +1,77 @@
+#include "umbrage/trace/visible_surfaces.hpp"
+
+#include <limits>
+
+#include "umbrage/trace/tiles.hpp"
+
+namespace umbrage::trace {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr double kEdgeOn = 1e-4;  ///< sine of the angle between ray and surface
+
+// How far rays may be advanced before they can meet anything. An eye far outside would lose its place in single precision.
+double distanceToBox(const Vec3& p, const Box3& box) {
+  if (box.empty()) return 0.0;
+  return glm::length(glm::max(glm::max(box.min - p, p - box.max), Vec3(0.0)));
+}
+
+struct View {
+  const Occlusion& occlusion;
+  Vec3 eye;  ///< relative to the origin of the surfaces
+  scene::PixelRays rays;
+  double clear;  ///< distance from the eye in which nothing is
+  double near;   ///< distance from the eye in which single precision may be wrong about a hit
+};
+
+// Single precision may hit a triangle whose plane holds the eye, which shows nothing.
+bool edgeOn(const View& view, std::uint32_t triangle, const Vec3& direction) {
+  const Vec3 normal = view.occlusion.surfaces().normal(triangle);
+  return std::abs(glm::dot(normal, direction)) <= kEdgeOn * glm::length(normal) * glm::length(direction);
+}
+
+void castPacket(const View& view, const Tile& tile, int x, int y, shadow::SurfaceBuffer& out) {
+  Rays8 rays{};
+  std::array<Vec3, 8> direction;
+  std::array<double, 8> start{};
+  forEachLane(tile, x, y, [&](int lane, int px, int py) {
+    const auto k = static_cast<std::size_t>(lane);
+    direction[k] = view.rays.through(px + 0.5, py + 0.5);
+    start[k] = 0.99 * view.clear / glm::length(direction[k]);
+    const Vec3f from(view.eye + start[k] * direction[k]), d(direction[k]);
+    rays.fromX[k] = from.x, rays.fromY[k] = from.y, rays.fromZ[k] = from.z;
+    rays.directionX[k] = d.x, rays.directionY[k] = d.y, rays.directionZ[k] = d.z;
+    rays.length[k] = kInfinity;
+    rays.active |= 1u << lane;
+  });
+  const Hits8 hits = view.occlusion.nearest(rays);
+  forEachLane(tile, x, y, [&](int lane, int px, int py) {
+    const auto k = static_cast<std::size_t>(lane);
+    if (hits.triangle[k] == shadow::kNoTriangle) return;
+    const double estimate = start[k] + double(hits.at[k]);
+    const Hit hit = {hits.triangle[k], refine(view.occlusion.corners(hits.triangle[k]), view.eye, direction[k], estimate)};
+    const bool doubtful = hit.at * glm::length(direction[k]) <= view.near || edgeOn(view, hit.triangle, direction[k]);
+    const auto sure = doubtful ? view.occlusion.nearest(view.eye, direction[k]) : std::optional(hit);
+    if (!sure) return;
+    out.triangle(px, py) = sure->triangle;
+    out.depth(px, py) = static_cast<float>(sure->at);
+  });
+}
+
+}  // namespace
+
+Result<shadow::SurfaceBuffer> visibleSurfaces(const Occlusion& occlusion, const scene::Camera& camera) {
+  const scene::Surfaces& surfaces = occlusion.surfaces();
+  const Vec3 eye = camera.eye - surfaces.origin;
+  const double near = 0x1p-18 * glm::length(eye) + 64.0 * occlusion.resolution();
+  const View view{occlusion, eye, scene::pixelRays(camera), distanceToBox(eye, surfaces.bounds), near};
+  shadow::SurfaceBuffer out{{camera.width, camera.height, shadow::kNoTriangle}, {camera.width, camera.height, kInfinity}};
+  const auto done = forEachTile(camera.width, camera.height, [&](const Tile& tile) {
+    for (int y = tile.y0; y < tile.y1; y += 2)
+      for (int x = tile.x0; x < tile.x1; x += 4) castPacket(view, tile, x, y, out);
+  });
+  if (!done) return tl::unexpected(done.error());
+  return out;
+}
+
+}  // namespace umbrage::trace
