@@ -1,0 +1,12 @@
+#pragma once
+
+#include "umbrage/scene/scene.hpp"
+
+namespace umbrage::samples::detail {
+
+[[nodiscard]] scene::Scene courtyard();
+[[nodiscard]] scene::Scene tower();
+[[nodiscard]] scene::Scene industrial();
+[[nodiscard]] scene::Scene building();
+
+}  // namespace umbrage::samples::detail

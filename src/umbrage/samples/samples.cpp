@@ -1,0 +1,42 @@
+#include "umbrage/samples/samples.hpp"
+
+#include <array>
+#include <string>
+
+#include "umbrage/samples/detail/scenes.hpp"
+
+namespace umbrage::samples {
+namespace {
+
+struct Sample {
+  SampleInfo info;
+  scene::Scene (*build)();
+};
+
+constexpr std::array<Sample, 4> kSamples{{
+    {{"courtyard", "A perimeter block around a court of 30 m with walls of 20 m, a kiosk and trees in it."}, detail::courtyard},
+    {{"tower", "A wrought-iron lattice tower of 300 m with curved legs: thousands of thin struts."}, detail::tower},
+    {{"industrial", "An industrial site: halls, tanks, spheres, pipe racks, chimneys, a conveyor."}, detail::industrial},
+    {{"building", "An office tower of about 180,000 triangles: facade grid, slabs, concrete core."}, detail::building},
+}};
+
+constexpr auto kInfos = [] {
+  std::array<SampleInfo, kSamples.size()> infos{};
+  for (std::size_t i = 0; i < infos.size(); ++i) infos[i] = kSamples[i].info;
+  return infos;
+}();
+
+}  // namespace
+
+std::span<const SampleInfo> list() { return kInfos; }
+
+Result<scene::Scene> make(std::string_view name) {
+  std::string known;
+  for (const Sample& sample : kSamples) {
+    if (sample.info.name == name) return sample.build();
+    known += (known.empty() ? "" : ", ") + std::string(sample.info.name);
+  }
+  return fail(ErrorCode::usage, "there is no sample of this name; there are " + known, "sample:" + std::string(name));
+}
+
+}  // namespace umbrage::samples
