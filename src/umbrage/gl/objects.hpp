@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "umbrage/base/error.hpp"
 
@@ -36,8 +37,12 @@ class Buffer {
   /// Replaces the whole contents. Errors: ErrorCode::device when memory is short.
   [[nodiscard]] Result<void> set(std::span<const std::byte> bytes);
   template <class T>
-  [[nodiscard]] Result<void> set(std::span<const T> values) {
-    return set(std::as_bytes(values));
+  [[nodiscard]] Result<void> setAll(const std::vector<T>& values) {
+    return set(std::as_bytes(std::span(values)));
+  }
+  template <class T>
+  [[nodiscard]] Result<void> setOne(const T& value) {
+    return set(std::as_bytes(std::span(&value, 1)));
   }
   [[nodiscard]] unsigned name() const { return handle_.name(); }
   [[nodiscard]] std::size_t bytes() const { return bytes_; }

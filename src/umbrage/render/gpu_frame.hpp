@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "umbrage/gl/objects.hpp"
+
+namespace umbrage::render {
+
+/// The pictures that a frame is drawn into, of one size: triangle ids with depth and stencil; a mask per light and the lit
+/// picture when they are asked for. REQUIRES: its context is current when it is made, used and destroyed.
+class GpuFrame {
+ public:
+  /// Errors: ErrorCode::device when the size is beyond the driver's or memory is short.
+  [[nodiscard]] static Result<GpuFrame> make(int width, int height);
+  [[nodiscard]] Result<void> needMasks(std::size_t count);
+  [[nodiscard]] Result<void> needPicture();
+
+  [[nodiscard]] int width() const { return depthStencil_.width(); }
+  [[nodiscard]] int height() const { return depthStencil_.height(); }
+
+  [[nodiscard]] const gl::Texture& ids() const { return ids_; }
+  [[nodiscard]] const gl::Texture& sum() const { return sum_; }
+  /// The finished picture, sRGB-encoded RGBA8, row 0 at the bottom: for a host to show.
+  [[nodiscard]] const gl::Texture& picture() const { return picture_; }
+
+  [[nodiscard]] const gl::Framebuffer& surfaceTarget() const { return surfaceTarget_; }
+  [[nodiscard]] const gl::Framebuffer& stencilTarget() const { return stencilTarget_; }
+  [[nodiscard]] const gl::Framebuffer& maskTarget(std::size_t light) const { return masks_[light].target; }
+  [[nodiscard]] const gl::Framebuffer& sumTarget() const { return sumTarget_; }
+  [[nodiscard]] const gl::Framebuffer& pictureTarget() const { return pictureTarget_; }
+
+ private:
+  struct Mask {
+    gl::Texture texture;
+    gl::Framebuffer target;
+  };
+  GpuFrame() = default;
+  gl::Texture ids_, depthStencil_, sum_, picture_;
+  std::vector<Mask> masks_;
+  gl::Framebuffer surfaceTarget_, stencilTarget_, sumTarget_, pictureTarget_;
+};
+
+}  // namespace umbrage::render

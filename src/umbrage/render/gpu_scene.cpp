@@ -1,0 +1,43 @@
+#include "umbrage/render/gpu_scene.hpp"
+
+#include <bit>
+#include <vector>
+
+#include "umbrage/gl/quirks.hpp"
+
+namespace umbrage::render {
+namespace {
+
+std::vector<Vec4f> shadingOf(const scene::Surfaces& surfaces) {
+  std::vector<Vec4f> rows;
+  rows.reserve(surfaces.triangles.size());
+  for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t) {
+    const Vec3 normal = surfaces.normal(t);
+    const double length = glm::length(normal);
+    rows.emplace_back(length > 0.0 ? Vec3f(normal / length) : Vec3f(0.0f), std::bit_cast<float>(surfaces.materials[t]));
+  }
+  return rows;
+}
+
+}  // namespace
+
+Result<void> setStorage(gl::Buffer& buffer, std::span<const std::byte> bytes, const char* what) {
+  if (bytes.size() > gl::findQuirks().maxStorageBytes)
+    return fail(ErrorCode::device, std::string("more ") + what + " than a buffer of this driver holds (" +
+                                       std::to_string(gl::findQuirks().maxStorageBytes >> 20) + " MiB)");
+  return buffer.set(bytes);
+}
+
+Result<GpuScene> GpuScene::make(const scene::Surfaces& surfaces) {
+  GpuScene scene;
+  scene.indexCount_ = 3 * surfaces.triangles.size();
+  const std::vector<Vec4f> shading = shadingOf(surfaces);
+  for (const auto& done : {setStorage(scene.positions_, std::as_bytes(std::span(surfaces.positions)), "positions"),
+                           setStorage(scene.corners_, std::as_bytes(std::span(surfaces.triangles)), "triangles"),
+                           setStorage(scene.triangles_, std::as_bytes(std::span(shading)), "triangles")})
+    if (!done) return tl::unexpected(done.error());
+  scene.vertices_ = gl::VertexArray(scene.corners_);
+  return scene;
+}
+
+}  // namespace umbrage::render

@@ -1,0 +1,151 @@
+#include "umbrage/render/pass_list.hpp"
+
+#include <array>
+
+namespace umbrage::render {
+namespace {
+
+using gl::Compare;
+using gl::StencilOp;
+
+constexpr std::array kTargets{"surface", "stencil", "mask", "sum", "picture", "host"};
+constexpr std::array kDraws{"nothing", "all surfaces", "sides by z-pass", "sides by z-fail", "caps by z-fail", "the screen"};
+
+Compare nearer(bool reversed) { return reversed ? Compare::greater : Compare::less; }
+
+struct Planner {
+  gl::PassState placement;
+  bool reversed;
+  Product product;
+  PassList list;
+
+  // A step in the frame's placement, with everything else at the baseline.
+  PassStep step(std::string name, std::string phase, Target target) const {
+    PassStep s;
+    s.name = std::move(name);
+    s.phase = std::move(phase);
+    s.target = target;
+    s.state = placement;
+    return s;
+  }
+
+  void surfaces() {
+    PassStep s = step("surfaces", "depth", Target::surface);
+    s.shader = Shader::surface;
+    s.draw = Draw::surfaces;
+    s.clearColour = true;
+    s.clearDepth = reversed ? 0.0f : 1.0f;
+    s.state.colourWrite = true;
+    s.state.depth = {.test = true, .pass = nearer(reversed), .write = true, .clamp = true};
+    list.steps.push_back(s);
+  }
+
+  Target stencilTarget() const { return product == Product::hostStencil ? Target::host : Target::stencil; }
+
+  void startCount(int light, const LightPlan& plan) {
+    PassStep s = step("start the count", "volumes", stencilTarget());
+    s.light = light;
+    s.clearStencil = static_cast<std::uint8_t>(plan.eyeCount & 0xff);
+    if (plan.litArea != placement.viewport) s.state.scissor = plan.litArea;
+    list.steps.push_back(s);
+  }
+
+  // The volumes can only change the count inside their area, and only matter where the light arrives.
+  void volume(int light, const LightPlan& plan, Draw draw, const char* name, Compare pass, const gl::StencilFace& front,
+              const gl::StencilFace& back) {
+    const gl::Rect area = gl::intersect(plan.volumeArea, plan.litArea);
+    if (area.empty()) return;
+    PassStep s = step(name, "volumes", stencilTarget());
+    s.light = light;
+    s.shader = Shader::volume;
+    s.draw = draw;
+    s.state.depth = {.test = true, .pass = pass, .write = false, .clamp = true};
+    s.state.stencil = {.test = true, .compare = Compare::always, .reference = 0, .front = front, .back = back};
+    if (area != placement.viewport) s.state.scissor = area;
+    list.steps.push_back(s);
+  }
+
+  void volumes(int light, const LightPlan& plan) {
+    const gl::StencilFace failUp{.depthFail = StencilOp::increment}, failDown{.depthFail = StencilOp::decrement};
+    const gl::StencilFace passUp{.pass = StencilOp::increment}, passDown{.pass = StencilOp::decrement};
+    if (plan.passSides) volume(light, plan, Draw::passSides, "sides", nearer(reversed), passUp, passDown);
+    if (plan.failSides) volume(light, plan, Draw::failSides, "sides", nearer(reversed), failDown, failUp);
+    // Near caps lie on the casters and far caps at infinity: none is nearer than the picture, so all fail, without a
+    // comparison that could fight with the surfaces they lie on.
+    if (plan.failCaps) volume(light, plan, Draw::failCaps, "caps", Compare::never, failDown, failUp);
+  }
+
+  PassStep screen(std::string name, std::string phase, Target target, Shader shader) const {
+    PassStep s = step(std::move(name), std::move(phase), target);
+    s.shader = shader;
+    s.draw = Draw::screen;
+    s.state.colourWrite = true;
+    s.state.frontIsClockwise = false;
+    return s;
+  }
+
+  void lit(int light, const LightPlan& plan) {
+    PassStep s = product == Product::masks ? screen("mask", "lit", Target::mask, Shader::lightMask)
+                                           : screen("light", "lit", Target::sum, Shader::light);
+    s.light = light;
+    if (product == Product::picture) s.state.blend = gl::Blend::add;
+    s.state.stencil = {.test = true, .compare = Compare::equal, .reference = 0};
+    if (plan.litArea != placement.viewport) s.state.scissor = plan.litArea;
+    list.steps.push_back(s);
+  }
+
+  void clearMask(int light) {
+    PassStep s = step("no light", "lit", Target::mask);
+    s.light = light;
+    s.clearColour = true;
+    s.state.colourWrite = true;
+    list.steps.push_back(s);
+  }
+
+  void ambient() {
+    PassStep s = screen("ambient", "lit", Target::sum, Shader::ambient);
+    s.clearColour = true;
+    list.steps.push_back(s);
+  }
+};
+
+std::string text(const PassStep& s) {
+  std::string out = (s.light >= 0 ? "light " + std::to_string(s.light) + ": " : "") + s.name + " -> " +
+                    kTargets[static_cast<std::size_t>(s.target)] + "\n";
+  if (s.clearColour) out += "    clear colour\n";
+  if (s.clearDepth) out += "    clear depth " + std::to_string(static_cast<int>(*s.clearDepth)) + "\n";
+  if (s.clearStencil) out += "    clear stencil " + std::to_string(*s.clearStencil) + "\n";
+  if (s.draw != Draw::nothing)
+    out += std::string("    draw ") + kDraws[static_cast<std::size_t>(s.draw)] + ": " + describe(s.state) + "\n";
+  else if (s.state.scissor)
+    out += "    " + describe(s.state) + "\n";
+  return out;
+}
+
+}  // namespace
+
+std::string describe(const PassList& list) {
+  std::string out;
+  for (const PassStep& step : list.steps) out += text(step);
+  return out;
+}
+
+PassList planPasses(const gl::PassState& placement, bool reversed, const std::vector<LightPlan>& lights, Product product) {
+  Planner planner{placement, reversed, product, {}};
+  if (product != Product::hostStencil) planner.surfaces();
+  if (product == Product::picture) planner.ambient();
+  for (int i = 0; i < static_cast<int>(lights.size()); ++i) {
+    const LightPlan& plan = lights[static_cast<std::size_t>(i)];
+    if (!plan.litArea.empty()) {
+      planner.startCount(i, plan);
+      planner.volumes(i, plan);
+    }
+    if (product == Product::masks) planner.clearMask(i);
+    if (!plan.litArea.empty() && product != Product::hostStencil) planner.lit(i, plan);
+  }
+  if (product == Product::picture)
+    planner.list.steps.push_back(planner.screen("encode", "lit", Target::picture, Shader::encode));
+  return std::move(planner.list);
+}
+
+}  // namespace umbrage::render

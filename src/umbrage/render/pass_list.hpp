@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "umbrage/gl/pass_state.hpp"
+
+namespace umbrage::render {
+
+enum class Target { surface, stencil, mask, sum, picture, host };
+enum class Shader { none, surface, volume, lightMask, ambient, light, encode };
+/// What is drawn: nothing, all surfaces, a part of a light's volumes, one triangle over the whole target.
+enum class Draw { nothing, surfaces, passSides, failSides, failCaps, screen };
+
+/// One pass as plain data.
+struct PassStep {
+  std::string name;
+  std::string phase;   ///< what its time is booked on
+  Target target = Target::surface;
+  Shader shader = Shader::none;
+  Draw draw = Draw::nothing;
+  int light = -1;      ///< whose data it uses; -1: no light's
+  bool clearColour = false;  ///< to no triangle, or black
+  std::optional<float> clearDepth;
+  std::optional<std::uint8_t> clearStencil;
+  gl::PassState state;
+};
+
+/// A whole frame as plain data: what is drawn, into what, in which state.
+struct PassList {
+  std::vector<PassStep> steps;
+};
+
+/// One line a pass.
+[[nodiscard]] std::string describe(const PassList& list);
+
+/// What the plan must know of one light.
+struct LightPlan {
+  int eyeCount = 0;  ///< the stencil starts from it modulo 256
+  bool passSides = false, failSides = false, failCaps = false;  ///< which parts of the volume are not empty
+  gl::Rect volumeArea, litArea;
+};
+
+enum class Product {
+  masks,        ///< what the camera sees, and a light mask per light
+  picture,      ///< the lit picture: ambient, then every light added, then encoded
+  hostStencil,  ///< the first light's shadows in the stencil of a host's own framebuffer, over the host's depth
+};
+
+/// Plans a frame. `placement`: viewport, clip control, depth range and front-face sense for everything drawn in perspective.
+[[nodiscard]] PassList planPasses(const gl::PassState& placement, bool reversed, const std::vector<LightPlan>& lights,
+                                  Product product);
+
+}  // namespace umbrage::render

@@ -1,0 +1,59 @@
+#include "umbrage/render/pass_list.hpp"
+
+#include <gtest/gtest.h>
+
+#include "approval/approval.hpp"
+
+namespace umbrage::render {
+namespace {
+
+constexpr gl::Rect kAll{0, 0, 64, 36};
+
+gl::PassState placement() {
+  gl::PassState state;
+  state.viewport = kAll;
+  return state;
+}
+
+TEST(PlanPasses, ZFailForOneLight) {
+  const LightPlan light{.failSides = true, .failCaps = true, .volumeArea = {8, 4, 20, 20}, .litArea = kAll};
+  EXPECT_TRUE(approval::approved("passes_zfail", describe(planPasses(placement(), true, {light}, Product::masks))));
+}
+
+TEST(PlanPasses, ZPassFromInsideTwoVolumesWithOneCasterByZFail) {
+  const LightPlan light{.eyeCount = 2,
+                        .passSides = true,
+                        .failSides = true,
+                        .failCaps = true,
+                        .volumeArea = kAll,
+                        .litArea = kAll};
+  EXPECT_TRUE(approval::approved("passes_zpass", describe(planPasses(placement(), true, {light}, Product::masks))));
+}
+
+TEST(PlanPasses, PictureWithASunAndASpot) {
+  const LightPlan sun{.passSides = true, .volumeArea = kAll, .litArea = kAll};
+  const LightPlan spot{.eyeCount = 1, .passSides = true, .volumeArea = kAll, .litArea = {10, 10, 8, 8}};
+  EXPECT_TRUE(approval::approved("passes_picture", describe(planPasses(placement(), true, {sun, spot}, Product::picture))));
+}
+
+TEST(PlanPasses, HostStencilWithOrdinaryDepth) {
+  gl::PassState host = placement();
+  host.clipDepth = gl::ClipDepth::minusOneToOne;
+  const LightPlan light{.failSides = true, .failCaps = true, .volumeArea = kAll, .litArea = kAll};
+  EXPECT_TRUE(approval::approved("passes_host", describe(planPasses(host, false, {light}, Product::hostStencil))));
+}
+
+TEST(PlanPasses, WrapsTheEyeCountIntoEightBits) {
+  const LightPlan light{.eyeCount = 257, .volumeArea = kAll, .litArea = kAll};
+  const PassList list = planPasses(placement(), true, {light}, Product::hostStencil);
+  ASSERT_EQ(list.steps.size(), 1u);
+  EXPECT_EQ(list.steps[0].clearStencil, 1);
+}
+
+TEST(PlanPasses, DrawsNothingForALightThatReachesNoPixel) {
+  const LightPlan light{.failSides = true, .failCaps = true, .volumeArea = kAll, .litArea = {}};
+  EXPECT_TRUE(planPasses(placement(), true, {light}, Product::hostStencil).steps.empty());
+}
+
+}  // namespace
+}  // namespace umbrage::render

@@ -1,0 +1,109 @@
+#include "umbrage/render/run_passes.hpp"
+
+#include <umbrage_shaders/ambient_frag.hpp>
+#include <umbrage_shaders/encode_frag.hpp>
+#include <umbrage_shaders/light_frag.hpp>
+#include <umbrage_shaders/light_mask_frag.hpp>
+#include <umbrage_shaders/screen_vert.hpp>
+#include <umbrage_shaders/surface_frag.hpp>
+#include <umbrage_shaders/surface_vert.hpp>
+#include <umbrage_shaders/volume_frag.hpp>
+#include <umbrage_shaders/volume_vert.hpp>
+
+#include "umbrage/base/check.hpp"
+#include "umbrage/shadow/surface_buffer.hpp"
+
+namespace umbrage::render {
+namespace {
+
+gl::Program compile(Shader shader) {
+  using namespace shaders;
+  switch (shader) {
+    case Shader::none: break;
+    case Shader::surface: return {kSurfaceVert, kSurfaceFrag};
+    case Shader::volume: return {kVolumeVert, kVolumeFrag};
+    case Shader::lightMask: return {kScreenVert, kLightMaskFrag};
+    case Shader::ambient: return {kScreenVert, kAmbientFrag};
+    case Shader::light: return {kScreenVert, kLightFrag};
+    case Shader::encode: return {kScreenVert, kEncodeFrag};
+  }
+  UMBRAGE_CHECK(false, "no shader");
+  return {kScreenVert, kVolumeFrag};
+}
+
+unsigned targetOf(const PassStep& step, const gl::HostScope& scope, const RunInput& input) {
+  switch (step.target) {
+    case Target::surface: return input.frame->surfaceTarget().name();
+    case Target::stencil: return input.frame->stencilTarget().name();
+    case Target::mask: return input.frame->maskTarget(static_cast<std::size_t>(step.light)).name();
+    case Target::sum: return input.frame->sumTarget().name();
+    case Target::picture: return input.frame->pictureTarget().name();
+    case Target::host: return scope.hostFramebuffer();
+  }
+  return 0;
+}
+
+void clear(gl::Pass& pass, const PassStep& step) {
+  if (step.clearColour) {
+    if (step.target == Target::surface)
+      pass.clearIds(shadow::kNoTriangle);
+    else
+      pass.clearColour({0.0f, 0.0f, 0.0f, 0.0f});
+  }
+  if (step.clearDepth) pass.clearDepth(*step.clearDepth);
+  if (step.clearStencil) pass.clearStencil(*step.clearStencil);
+}
+
+void bindScreenInputs(gl::Pass& pass, const PassStep& step, const RunInput& input, const GpuLight* light) {
+  pass.uniforms(1, light != nullptr ? light->shading : *input.shading);
+  pass.storage(1, input.scene->triangles());
+  pass.storage(2, input.scene->corners());
+  if (light != nullptr) pass.storage(3, light->facing);
+  if (input.materials != nullptr) pass.storage(4, *input.materials);
+  pass.texture(0, input.frame->ids());
+  if (step.shader == Shader::encode) pass.texture(1, input.frame->sum());
+}
+
+void draw(gl::Pass& pass, const PassStep& step, const RunInput& input, const GpuLight* light) {
+  if (step.draw == Draw::nothing) return;
+  pass.use(input.programs.get(step.shader));
+  pass.uniforms(0, light != nullptr ? light->view : *input.view);
+  pass.storage(0, input.positions);
+  const auto volume = [&](const IndexRange& range) { pass.drawIndexed(light->vertices, range.first, range.count); };
+  switch (step.draw) {
+    case Draw::nothing: break;
+    case Draw::surfaces: pass.drawIndexed(input.scene->vertices(), 0, input.scene->indexCount()); break;
+    case Draw::passSides: volume(light->passSides); break;
+    case Draw::failSides: volume(light->failSides); break;
+    case Draw::failCaps: volume(light->failCaps); break;
+    case Draw::screen:
+      bindScreenInputs(pass, step, input, light);
+      pass.draw(input.scene->vertices(), 3);
+      break;
+  }
+}
+
+}  // namespace
+
+const gl::Program& Programs::get(Shader shader) {
+  auto& slot = programs_[static_cast<std::size_t>(shader)];
+  if (!slot) slot.emplace(compile(shader));
+  return *slot;
+}
+
+void run(gl::HostScope& scope, const PassList& list, const RunInput& input, const PhaseEnd& ended) {
+  for (std::size_t i = 0; i < list.steps.size(); ++i) {
+    const PassStep& step = list.steps[i];
+    {
+      gl::Pass pass(scope, targetOf(step, scope, input), step.state);
+      clear(pass, step);
+      draw(pass, step, input, step.light >= 0 ? &input.lights[static_cast<std::size_t>(step.light)] : nullptr);
+    }
+    const bool last = i + 1 == list.steps.size() || list.steps[i + 1].phase != step.phase;
+    if (!ended || !last) continue;
+    gl::finish();
+    ended(step.phase.c_str());
+  }
+}
+
+}  // namespace umbrage::render

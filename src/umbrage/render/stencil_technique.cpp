@@ -1,0 +1,223 @@
+#include <chrono>
+
+#include "umbrage/gl/read_back.hpp"
+#include "umbrage/render/run_passes.hpp"
+#include "umbrage/render/technique.hpp"
+#include "umbrage/render/uniforms.hpp"
+#include "umbrage/shadow/facing.hpp"
+
+namespace umbrage::render {
+namespace {
+
+// Books wall-clock time on phases, in the order of their first appearance.
+class PhaseClock {
+ public:
+  explicit PhaseClock(std::vector<shadow::PhaseTime>& phases) : phases_(phases) {}
+  void end(const std::string& phase) {
+    const auto now = std::chrono::steady_clock::now();
+    const double passed = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    for (shadow::PhaseTime& p : phases_)
+      if (p.name == phase) {
+        p.milliseconds += passed;
+        return;
+      }
+    phases_.push_back({phase, passed});
+  }
+
+ private:
+  std::vector<shadow::PhaseTime>& phases_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+std::string reasonFor(Counting counting, const shadow::LightStats& stats) {
+  if (counting == Counting::zFail) return "right for every eye and every caster";
+  if (stats.castersByZFail > 0)
+    return std::to_string(stats.castersByZFail) + " casters by z-fail: the eye touches a side of their shadow volumes";
+  if (stats.eyeCount != 0) return "no caps: the eye is inside " + std::to_string(stats.eyeCount) + " shadow volumes, which is counted";
+  return "no caps: the eye is outside all shadow volumes";
+}
+
+std::vector<Vec4f> coloursOf(std::span<const scene::Material> materials) {
+  std::vector<Vec4f> colours;
+  for (const scene::Material& m : materials) colours.emplace_back(Vec3f(m.colour), 1.0f);
+  return colours;
+}
+
+class StencilTechnique final : public GlTechnique {
+ public:
+  StencilTechnique(const shadow::Traits& traits, Counting counting, std::shared_ptr<gl::Context> context)
+      : traits_(traits), counting_(counting), context_(std::move(context)) {}
+  ~StencilTechnique() override {
+    const gl::CurrentContext current(context_);
+    own_.reset();
+  }
+
+  [[nodiscard]] const shadow::Traits& traits() const override { return traits_; }
+
+  Result<void> prepare(std::shared_ptr<const shadow::Geometry> geometry) override {
+    const gl::CurrentContext current(context_);
+    const gl::HostScope scope;
+    auto scene = GpuScene::make(geometry->surfaces);
+    if (!scene) return tl::unexpected(scene.error());
+    if (own_ == nullptr) own_ = std::make_unique<Own>();
+    own_->scene.emplace(std::move(*scene));
+    geometry_ = std::move(geometry);
+    return {};
+  }
+
+  Result<shadow::Shading> shade(const shadow::Frame& frame) override {
+    UMBRAGE_CHECK(geometry_ != nullptr, "prepare() first");
+    const gl::CurrentContext current(context_);
+    gl::HostScope scope;
+    auto& target = own_->frame;
+    if (auto done = resize(target, frame.camera); !done) return tl::unexpected(done.error());
+    if (auto done = target->needMasks(frame.lights.size()); !done) return tl::unexpected(done.error());
+
+    shadow::Shading shading;
+    PhaseClock clock(shading.stats.phases);
+    const PhaseEnd ended = [&](const char* phase) { clock.end(phase); };
+    if (auto done = render(scope, *target, frame, Product::masks, nullptr, shading.stats, ended); !done)
+      return tl::unexpected(done.error());
+    readBack(scope, *target, frame, shading);
+    clock.end("readback");
+    return shading;
+  }
+
+  Result<shadow::FrameStats> draw(GpuFrame& target, const shadow::Frame& frame, const PictureOptions& options,
+                                  bool timed) override {
+    UMBRAGE_CHECK(geometry_ != nullptr, "prepare() first");
+    UMBRAGE_CHECK(target.width() == frame.camera.width && target.height() == frame.camera.height, "picture size");
+    const gl::CurrentContext current(context_);
+    gl::HostScope scope;
+    if (auto done = target.needPicture(); !done) return tl::unexpected(done.error());
+    shadow::FrameStats stats;
+    PhaseClock clock(stats.phases);
+    PhaseEnd ended;
+    if (timed) ended = [&](const char* phase) { clock.end(phase); };
+    if (auto done = render(scope, target, frame, Product::picture, &options, stats, ended); !done)
+      return tl::unexpected(done.error());
+    return stats;
+  }
+
+ private:
+  // All that lives in the context.
+  struct Own {
+    std::optional<GpuScene> scene;
+    std::optional<GpuFrame> frame;
+    Programs programs;
+    gl::Buffer view, shading, materials;
+    std::vector<GpuLight> lights;
+  };
+
+  static Result<void> resize(std::optional<GpuFrame>& frame, const scene::Camera& camera) {
+    if (frame && frame->width() == camera.width && frame->height() == camera.height) return {};
+    frame.reset();
+    auto made = GpuFrame::make(camera.width, camera.height);
+    if (!made) return tl::unexpected(made.error());
+    frame.emplace(std::move(*made));
+    return {};
+  }
+
+  Result<void> render(gl::HostScope& scope, GpuFrame& target, const shadow::Frame& frame, Product product,
+                      const PictureOptions* options, shadow::FrameStats& stats, const PhaseEnd& ended) {
+    const scene::Camera& camera = frame.camera;
+    const View view = viewOf(camera, geometry_->surfaces.bounds.radius());
+    gl::PassState placement;
+    placement.viewport = {0, 0, camera.width, camera.height};
+    if (auto done = uploadFrame(view, camera, options); !done) return done;
+
+    std::vector<LightPlan> plans;
+    while (own_->lights.size() < frame.lights.size()) own_->lights.emplace_back();
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+      stats.lights.emplace_back();
+      auto plan = addLight(own_->lights[i], frame.lights[i], view, camera, placement, stats.lights.back(), ended);
+      if (!plan) return tl::unexpected(plan.error());
+      plans.push_back(*plan);
+    }
+    const RunInput input{.programs = own_->programs,
+                         .positions = own_->scene->positions(),
+                         .scene = &*own_->scene,
+                         .frame = &target,
+                         .materials = options != nullptr ? &own_->materials : nullptr,
+                         .view = &own_->view,
+                         .shading = &own_->shading,
+                         .lights = own_->lights};
+    run(scope, planPasses(placement, view.reversed, plans, product), input, ended);
+    return {};
+  }
+
+  // What no light changes.
+  Result<void> uploadFrame(const View& view, const scene::Camera& camera, const PictureOptions* options) {
+    ShadingBlock shading = shadingBlock(camera);
+    if (options != nullptr) {
+      shading.sky = Vec4f(Vec3f(options->up), static_cast<float>(options->light.ambient));
+      shading.background = Vec4f(Vec3f(options->light.background), 1.0f);
+      const std::vector<Vec4f> colours = coloursOf(options->materials);
+      if (auto done = own_->materials.setAll(colours); !done) return done;
+    }
+    const ViewBlock block = viewBlock(view, geometry_->surfaces.origin, Vec4(0.0));
+    if (auto done = own_->view.setOne(block); !done) return done;
+    return own_->shading.setOne(shading);
+  }
+
+  Result<LightPlan> addLight(GpuLight& gpu, const scene::Light& light, const View& view, const scene::Camera& camera,
+                             const gl::PassState& placement, shadow::LightStats& stats, const PhaseEnd& ended) {
+    const shadow::CasterSet& casters = geometry_->casters;
+    const Vec3& origin = geometry_->surfaces.origin;
+    const Vec4 homogeneous = scene::homogeneous(light, origin);
+    const LightVolume volume = prepareVolume(casters, homogeneous, view.eye - origin, counting_, stats, ended);
+    stats.reason = reasonFor(counting_, stats);
+    const auto facing = packBits(
+        shadow::visibleSideFacesLight(geometry_->surfaces, Vec4(view.eye - origin, 1.0), homogeneous));
+    if (ended) ended("facing");
+
+    const ViewBlock viewData = viewBlock(view, origin, homogeneous);
+    const ShadingBlock shading = withLight(shadingBlock(camera), camera, light);
+    for (const auto& done : {gpu.view.setOne(viewData), gpu.shading.setOne(shading),
+                             gpu.facing.setAll(facing), gpu.volume.setAll(volume.indices)})
+      if (!done) return tl::unexpected(done.error());
+    gpu.passSides = volume.passSides;
+    gpu.failSides = volume.failSides;
+    gpu.failCaps = volume.failCaps;
+    if (ended) {
+      gl::finish();
+      ended("upload");
+    }
+    return LightPlan{.eyeCount = volume.eyeCount,
+                     .passSides = volume.passSides.count > 0,
+                     .failSides = volume.failSides.count > 0,
+                     .failCaps = volume.failCaps.count > 0,
+                     .volumeArea = volumeArea(view, casters.bounds, homogeneous, origin, placement),
+                     .litArea = litArea(view, light, placement)};
+  }
+
+  void readBack(const gl::HostScope& scope, const GpuFrame& target, const shadow::Frame& frame, shadow::Shading& out) {
+    const int width = frame.camera.width, height = frame.camera.height;
+    const View view = viewOf(frame.camera, geometry_->surfaces.bounds.radius());
+    out.surface.triangle = gl::readIds(scope, target.surfaceTarget(), width, height);
+    out.surface.depth = gl::readDepth(scope, target.surfaceTarget(), width, height);
+    image::GreyImage covered(width, height);
+    for (std::size_t i = 0; i < covered.size(); ++i) {
+      out.surface.depth.pixels()[i] = depthToDistance(view, out.surface.depth.pixels()[i]);
+      covered.pixels()[i] = out.surface.triangle.pixels()[i] != shadow::kNoTriangle ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < frame.lights.size(); ++i)
+      out.masks.push_back({gl::readGrey(scope, target.maskTarget(i), width, height), {}, covered});
+  }
+
+  shadow::Traits traits_;
+  Counting counting_;
+  std::shared_ptr<gl::Context> context_;
+  std::shared_ptr<const shadow::Geometry> geometry_;
+  std::unique_ptr<Own> own_;
+};
+
+}  // namespace
+
+std::unique_ptr<GlTechnique> makeStencilTechnique(const shadow::Traits& traits, Counting counting,
+                                                  std::shared_ptr<gl::Context> context) {
+  return std::make_unique<StencilTechnique>(traits, counting, std::move(context));
+}
+
+}  // namespace umbrage::render

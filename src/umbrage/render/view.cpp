@@ -1,0 +1,118 @@
+#include "umbrage/render/view.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "umbrage/base/check.hpp"
+
+namespace umbrage::render {
+namespace {
+
+constexpr double kNearPerRadius = 1e-6;
+// Wider cones are treated as reaching everywhere; their tangent says nothing.
+constexpr double kWidestCone = 80.0;
+
+struct Bounds2 {
+  double left = std::numeric_limits<double>::infinity(), right = -left, bottom = left, top = -left;
+};
+
+// The pixels that hold the convex hull of homogeneous points; false when the hull crosses the plane of the eye.
+bool project(const View& view, const std::vector<Vec4>& points, Bounds2& out) {
+  for (const Vec4& p : points) {
+    const Vec4 clip = view.toClip * p;
+    if (!(clip.w > 1e-9 * glm::length(Vec3(p)))) return false;
+    out.left = std::min(out.left, clip.x / clip.w);
+    out.right = std::max(out.right, clip.x / clip.w);
+    out.bottom = std::min(out.bottom, clip.y / clip.w);
+    out.top = std::max(out.top, clip.y / clip.w);
+  }
+  return true;
+}
+
+// One pixel more on each side, for the rounding of the rasteriser.
+gl::Rect pixelsOf(const View& view, const std::vector<Vec4>& points, const gl::PassState& placement) {
+  const gl::Rect& viewport = placement.viewport;
+  Bounds2 b;
+  if (!project(view, points, b)) return viewport;
+  if (placement.clipOrigin == gl::ClipOrigin::upperLeft) b = {b.left, b.right, -b.top, -b.bottom};
+  const auto pixel = [](double ndc, int start, int size, double margin) {
+    const double bounded = std::clamp(0.5 + 0.5 * ndc, -0.5, 1.5);
+    return static_cast<int>(std::floor(start + bounded * size + margin));
+  };
+  const int left = pixel(b.left, viewport.x, viewport.width, -1), right = pixel(b.right, viewport.x, viewport.width, 2);
+  const int bottom = pixel(b.bottom, viewport.y, viewport.height, -1), top = pixel(b.top, viewport.y, viewport.height, 2);
+  return gl::intersect({left, bottom, right - left, top - bottom}, viewport);
+}
+
+std::array<Vec3, 8> cornersOf(const Box3& box) {
+  std::array<Vec3, 8> corners;
+  for (int i = 0; i < 8; ++i)
+    corners[i] = Vec3((i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
+                      (i & 4) != 0 ? box.max.z : box.min.z);
+  return corners;
+}
+
+}  // namespace
+
+View viewOf(const scene::Camera& camera, double sceneRadius) {
+  const scene::CameraBasis b = scene::basis(camera);
+  const double f = 1.0 / tan(0.5 * camera.fovY);
+  const double aspect = double(camera.width) / double(camera.height);
+  View view;
+  view.eye = camera.eye;
+  view.nearDistance = kNearPerRadius * (sceneRadius > 0.0 ? sceneRadius : 1.0);
+  const Vec3 x = b.right * (f / aspect), y = b.up * f;
+  for (int c = 0; c < 3; ++c) view.toClip[c] = Vec4(x[c], y[c], 0.0, b.forward[c]);
+  view.toClip[3] = Vec4(0.0, 0.0, view.nearDistance, 0.0);
+  return view;
+}
+
+View viewOf(const Mat4& view, const Mat4& projection, bool reversed) {
+  UMBRAGE_CHECK(projection[3][3] == 0.0 && projection[2][3] != 0.0, "a perspective projection");
+  const Mat3 rotation(view);
+  View out;
+  out.eye = -(glm::transpose(rotation) * Vec3(view[3]));
+  out.toClip = projection * Mat4(rotation);
+  out.reversed = reversed;
+  return out;
+}
+
+bool mirrors(const View& view) {
+  const auto row = [&](int r) { return Vec3(view.toClip[0][r], view.toClip[1][r], view.toClip[2][r]); };
+  // Right, up and forward are left-handed in a picture that does not mirror.
+  return glm::dot(glm::cross(row(0), row(1)), row(3)) > 0.0;
+}
+
+float depthToDistance(const View& view, float depth) {
+  return depth > 0.0f ? static_cast<float>(view.nearDistance / double(depth)) : std::numeric_limits<float>::infinity();
+}
+
+gl::Rect volumeArea(const View& view, const Box3& bounds, const Vec4& light, const Vec3& origin,
+                    const gl::PassState& placement) {
+  if (bounds.empty()) return {};
+  std::vector<Vec4> points;
+  for (const Vec3& corner : cornersOf(bounds)) {
+    points.emplace_back(corner + origin - view.eye, 1.0);
+    points.emplace_back(corner * light.w - Vec3(light), 0.0);
+  }
+  return pixelsOf(view, points, placement);
+}
+
+gl::Rect litArea(const View& view, const scene::Light& light, const gl::PassState& placement) {
+  const auto* spot = std::get_if<scene::SpotLight>(&light.shape);
+  if (spot == nullptr || spot->cutoff > Angle::degrees(kWidestCone)) return placement.viewport;
+  // A pyramid around the cone.
+  const Vec3 axis = glm::normalize(spot->direction);
+  const Vec3 u = glm::normalize(glm::cross(axis, std::abs(axis.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
+  const Vec3 v = glm::cross(axis, u);
+  const double reach = tan(spot->cutoff);
+  std::vector<Vec4> points{Vec4(spot->position - view.eye, 1.0)};
+  for (const double i : {-reach, reach})
+    for (const double j : {-reach, reach}) points.emplace_back(axis + i * u + j * v, 0.0);
+  return pixelsOf(view, points, placement);
+}
+
+}  // namespace umbrage::render

@@ -1,0 +1,30 @@
+#include "umbrage/techniques/gl/registry.hpp"
+
+#include "umbrage/techniques/gl/zfail.hpp"
+#include "umbrage/techniques/gl/zpass.hpp"
+
+namespace umbrage::techniques {
+namespace {
+
+using ContextSlot = std::shared_ptr<std::shared_ptr<gl::Context>>;
+using Maker = std::unique_ptr<render::GlTechnique> (*)(std::shared_ptr<gl::Context>);
+
+shadow::TechniqueEntry entry(shadow::Traits traits, Maker make, ContextSlot slot) {
+  return {std::move(traits), [make, slot]() -> Result<std::unique_ptr<shadow::Technique>> {
+            if (*slot == nullptr) {
+              auto context = gl::Context::createHeadless();
+              if (!context) return tl::unexpected(context.error());
+              *slot = std::move(*context);
+            }
+            return make(*slot);
+          }};
+}
+
+}  // namespace
+
+std::vector<shadow::TechniqueEntry> glTechniques() {
+  const auto slot = std::make_shared<std::shared_ptr<gl::Context>>();
+  return {entry(zFailTraits(), makeZFail, slot), entry(zPassTraits(), makeZPass, slot)};
+}
+
+}  // namespace umbrage::techniques

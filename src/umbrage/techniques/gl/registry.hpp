@@ -1,0 +1,12 @@
+#pragma once
+
+#include <vector>
+
+#include "umbrage/shadow/technique.hpp"
+
+namespace umbrage::techniques {
+
+/// Every technique of this room. The entries of one list share one headless context, made when the first is created.
+[[nodiscard]] std::vector<shadow::TechniqueEntry> glTechniques();
+
+}  // namespace umbrage::techniques

@@ -1,0 +1,320 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "umbrage/gl/host_scope.hpp"
+#include "umbrage/gl/read_back.hpp"
+#include "umbrage/image/compare.hpp"
+#include "umbrage/math/predicates.hpp"
+#include "umbrage/shadow/composite.hpp"
+#include "umbrage/shadow/facing.hpp"
+#include "umbrage/techniques/gl/registry.hpp"
+#include "umbrage/techniques/gl/zfail.hpp"
+#include "umbrage/techniques/gl/zpass.hpp"
+
+namespace umbrage::techniques {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 90;
+
+// ---- scenes ----
+
+std::shared_ptr<mesh::Mesh> boxMesh() {
+  auto m = std::make_shared<mesh::Mesh>();
+  for (int i = 0; i < 8; ++i) m->positions.emplace_back(i & 1, (i >> 1) & 1, (i >> 2) & 1);
+  m->triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                  {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return m;
+}
+
+scene::Instance box(const Vec3& at, const Vec3& size) {
+  Mat4 m(1.0);
+  for (int k = 0; k < 3; ++k) m[k][k] = size[k];
+  m[3] = Vec4(at, 1.0);
+  return {"box", 0, m, true};
+}
+
+// Three boxes, two of which touch, and an open sheet above them.
+scene::Scene village() {
+  scene::Scene s;
+  s.meshes = {boxMesh(), std::make_shared<mesh::Mesh>()};
+  auto sheet = std::make_shared<mesh::Mesh>();
+  sheet->positions = {{0, 0, 5}, {2, 0.3, 5.2}, {2.2, 2, 5.4}, {0.1, 1.8, 5.1}};
+  sheet->triangles = {{0, 1, 2}, {0, 2, 3}};
+  s.meshes[1] = sheet;
+  s.materials = {{"wall", Vec3(0.8, 0.5, 0.3), 1.0}};
+  s.instances = {box({0, 0, 0}, {2, 2, 3}), box({2, 0.5, 0}, {1, 1, 1.5}), box({-3, 4, 0}, {1, 3, 4}), {"sheet", 1}};
+  return scene::withGround(std::move(s));
+}
+
+scene::Camera cameraFrom(const Vec3& eye, const Vec3& target) {
+  scene::Camera c;
+  c.eye = eye;
+  c.target = target;
+  c.width = kWidth;
+  c.height = kHeight;
+  return c;
+}
+
+// ---- the truth, by brute force in double precision ----
+
+struct Truth {
+  const scene::Surfaces& surfaces;
+
+  // The first triangle that origin + t * ray hits with t in (from, to); its index, or kNoTriangle.
+  std::uint32_t hit(const Vec3& origin, const Vec3& ray, double from, double to, bool castersOnly, double* where = nullptr) const {
+    std::uint32_t best = shadow::kNoTriangle;
+    for (std::uint32_t i = 0; i < surfaces.triangles.size(); ++i) {
+      if (castersOnly && surfaces.casts[i] == 0) continue;
+      const Vec3 a = surfaces.corner(i, 0), e = surfaces.corner(i, 1) - a, f = surfaces.corner(i, 2) - a;
+      const Vec3 p = glm::cross(ray, f), s = origin - a, q = glm::cross(s, e);
+      const double det = glm::dot(e, p);
+      const double u = glm::dot(s, p) / det, v = glm::dot(ray, q) / det, t = glm::dot(f, q) / det;
+      if (!(u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > from && t < to)) continue;
+      to = t;
+      best = i;
+    }
+    if (where != nullptr) *where = to;
+    return best;
+  }
+
+  // Pixels at a shadow edge of `mask`, and those with a neighbour that does not lie in the plane they see: depth edges.
+  image::GreyImage edges(const scene::Camera& camera, const shadow::LightMask& mask) const {
+    image::GreyImage edges = shadow::edgePixels(mask);
+    const Vec3 eye = camera.eye - surfaces.origin;
+    const scene::PixelRays rays = scene::pixelRays(camera);
+    const double none = std::numeric_limits<double>::infinity();
+    image::Image<std::uint32_t> seen(camera.width, camera.height);
+    image::Image<double> depth(camera.width, camera.height);
+    for (int y = 0; y < camera.height; ++y)
+      for (int x = 0; x < camera.width; ++x) seen(x, y) = hit(eye, rays.through(x + 0.5, y + 0.5), 0.0, none, false, &depth(x, y));
+    const auto leaves = [&](int x, int y, int u, int v) {
+      if (!seen.contains(u, v) || seen(x, y) == shadow::kNoTriangle || seen(u, v) == shadow::kNoTriangle) return false;
+      const Vec3 n = glm::normalize(surfaces.normal(seen(x, y)));
+      const Vec3 beside = eye + depth(u, v) * rays.through(u + 0.5, v + 0.5);
+      return std::abs(glm::dot(n, beside - surfaces.corner(seen(x, y), 0))) > 1e-5 * surfaces.casterBounds.radius();
+    };
+    for (int y = 0; y < camera.height; ++y)
+      for (int x = 0; x < camera.width; ++x)
+        if (leaves(x, y, x + 1, y) || leaves(x, y, x - 1, y) || leaves(x, y, x, y + 1) || leaves(x, y, x, y - 1)) edges(x, y) = 255;
+    return edges;
+  }
+
+  shadow::LightMask mask(const scene::Camera& camera, const scene::Light& light) const {
+    const Vec3 eye = camera.eye - surfaces.origin;
+    const Vec4 lamp = scene::homogeneous(light, surfaces.origin);
+    const auto facing = shadow::visibleSideFacesLight(surfaces, Vec4(eye, 1.0), lamp);
+    const scene::PixelRays rays = scene::pixelRays(camera);
+    shadow::LightMask m{image::GreyImage(camera.width, camera.height), {}, image::GreyImage(camera.width, camera.height)};
+    for (int y = 0; y < camera.height; ++y)
+      for (int x = 0; x < camera.width; ++x) {
+        const Vec3 ray = rays.through(x + 0.5, y + 0.5);
+        double t = 0.0;
+        const auto seen = hit(eye, ray, 0.0, std::numeric_limits<double>::infinity(), false, &t);
+        if (seen == shadow::kNoTriangle) continue;
+        m.covered(x, y) = 1;
+        const Vec3 p = eye + t * ray;
+        if (facing[seen] == 0 || !scene::insideCone(light, p + surfaces.origin)) continue;
+        const double far = lamp.w == 0.0 ? std::numeric_limits<double>::infinity() : 1.0;
+        if (hit(p, scene::towardsLight(lamp, p), 1e-9, far, true) == shadow::kNoTriangle) m.light(x, y) = 255;
+      }
+    return m;
+  }
+};
+
+struct Light3 {
+  const char* name;
+  scene::Light light;
+};
+std::vector<Light3> lights() {
+  return {{"sun", {scene::DirectionalLight{{0.5, 0.3, -0.8}}}},
+          {"low sun", {scene::DirectionalLight{{-1.0, 0.2, -0.1}}}},
+          {"lamp", {scene::PointLight{{3.7, -1.2, 6.0}}}},
+          {"lamp among the boxes", {scene::PointLight{{-0.7, 1.1, 1.3}}}},
+          {"spot", {scene::SpotLight{{4, -3, 7}, {-0.5, 0.6, -1}, Angle::degrees(25)}}},
+          {"wide spot", {scene::SpotLight{{4, -3, 7}, {-0.5, 0.6, -1}, Angle::degrees(100)}}}};
+}
+
+struct Eye {
+  const char* name;
+  scene::Camera camera;
+};
+std::vector<Eye> eyes() {
+  return {{"outside", cameraFrom({9, -11, 7}, {0, 1, 1})},
+          {"low in a shadow", cameraFrom({2.5, 2.3, 0.2}, {-1, 4, 1})},
+          {"near a wall", cameraFrom({-0.01, 1.03, 0.9}, {-3, 5, 2})},
+          {"from above", cameraFrom({0.3, 0.2, 30}, {0.4, 0.5, 0})},
+          {"inside a box", cameraFrom({1.1, 0.9, 1.2}, {0.2, 1.9, 0.4})}};
+}
+
+using Make = std::unique_ptr<render::GlTechnique> (*)(std::shared_ptr<gl::Context>);
+
+class StencilTechniques : public ::testing::TestWithParam<Make> {
+ protected:
+  void SetUp() override {
+    auto context = gl::Context::createHeadless();
+    if (!context) GTEST_SKIP() << "no graphics: " << context.error().text();
+    context_ = *context;
+    technique_ = GetParam()(context_);
+  }
+  std::shared_ptr<gl::Context> context_;
+  std::unique_ptr<render::GlTechnique> technique_;
+};
+
+TEST_P(StencilTechniques, AgreeWithBruteForceForEveryEyeAndLight) {
+  const auto geometry = shadow::makeGeometry(village());
+  ASSERT_TRUE(technique_->prepare(geometry));
+  const Truth truth{geometry->surfaces};
+  for (const Eye& eye : eyes())
+    for (const Light3& light : lights()) {
+      SCOPED_TRACE(std::string(eye.name) + ", " + light.name);
+      const auto shading = technique_->shade({eye.camera, std::span(&light.light, 1)});
+      ASSERT_TRUE(shading) << shading.error().text();
+      const auto expected = truth.mask(eye.camera, light.light);
+      const auto difference = shadow::compare(shading->masks[0], expected, truth.edges(eye.camera, expected), 1);
+      EXPECT_EQ(difference.farFromEdge, 0u) << difference.differing << " differ in all";
+    }
+}
+
+// Neither the origin of the file nor the size of the scene may matter.
+TEST_P(StencilTechniques, AgreeWithBruteForceFarFromTheOriginAndInMillimetres) {
+  for (const double scale : {1.0, 1000.0}) {
+    scene::Scene s = village();
+    const Vec3 shift = scale == 1.0 ? Vec3(85000, 446000, 30) : Vec3(0.0);
+    for (scene::Instance& i : s.instances) {
+      i.toWorld = Mat4(Mat3(i.toWorld) * scale);
+      i.toWorld[3] = Vec4(scale * Vec3(village().instances[std::size_t(&i - s.instances.data())].toWorld[3]) + shift, 1.0);
+    }
+    const auto geometry = shadow::makeGeometry(s);
+    ASSERT_TRUE(technique_->prepare(geometry));
+    scene::Camera camera = cameraFrom(scale * Vec3(9, -11, 7) + shift, scale * Vec3(0, 1, 1) + shift);
+    const scene::Light lamp{scene::PointLight{scale * Vec3(3.7, -1.2, 6.0) + shift}};
+    const auto shading = technique_->shade({camera, std::span(&lamp, 1)});
+    ASSERT_TRUE(shading);
+    const Truth truth{geometry->surfaces};
+    const auto expected = truth.mask(camera, lamp);
+    EXPECT_EQ(shadow::compare(shading->masks[0], expected, truth.edges(camera, expected), 1).farFromEdge, 0u) << scale;
+  }
+}
+
+TEST_P(StencilTechniques, SeeWhatTheCameraSees) {
+  const auto geometry = shadow::makeGeometry(village());
+  ASSERT_TRUE(technique_->prepare(geometry));
+  const scene::Camera camera = eyes()[0].camera;
+  const auto shading = technique_->shade({camera, {}});
+  ASSERT_TRUE(shading);
+  EXPECT_TRUE(shading->masks.empty());
+  const Truth truth{geometry->surfaces};
+  const scene::PixelRays rays = scene::pixelRays(camera);
+  std::size_t different = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      double t = 0.0;
+      const auto seen = truth.hit(camera.eye, rays.through(x + 0.5, y + 0.5), 0.0, std::numeric_limits<double>::infinity(), false, &t);
+      if (shading->surface.triangle(x, y) == seen)
+        EXPECT_TRUE(std::isinf(t) ? std::isinf(shading->surface.depth(x, y))
+                                  : std::abs(shading->surface.depth(x, y) - t) < 1e-3 * t) << x << " " << y;
+      else
+        ++different;
+    }
+  EXPECT_LT(different, 20u);  // pixels on edges between triangles
+}
+
+TEST_P(StencilTechniques, DrawThePictureThatTheProcessorComposes) {
+  const scene::Scene s = village();
+  const auto geometry = shadow::makeGeometry(s);
+  ASSERT_TRUE(technique_->prepare(geometry));
+  const scene::Camera camera = eyes()[0].camera;
+  std::vector<scene::Light> several;
+  for (const Light3& l : lights()) {
+    several.push_back(l.light);
+    several.back().colour = Vec3(0.2 + 0.1 * double(several.size()), 0.3, 0.5 - 0.05 * double(several.size()));
+    several.back().intensity = 0.7;
+  }
+  const auto shading = technique_->shade({camera, several});
+  ASSERT_TRUE(shading);
+  const auto expected = shadow::composite(s, geometry->surfaces, camera, shading->surface, several, shading->masks);
+
+  const gl::CurrentContext current(context_);
+  auto frame = render::GpuFrame::make(kWidth, kHeight);
+  ASSERT_TRUE(frame);
+  const auto stats = technique_->draw(*frame, {camera, several}, {.materials = s.materials});
+  ASSERT_TRUE(stats);
+  const gl::HostScope scope;
+  const auto picture = gl::readRgba(scope, frame->pictureTarget(), kWidth, kHeight);
+  image::RgbImage drawn(kWidth, kHeight);
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const auto p = picture.pixels()[i];
+    drawn.pixels()[i] = {p.r, p.g, p.b};
+  }
+  EXPECT_LE(image::compare(drawn, expected).largest, 2);
+}
+
+// Where nothing is shadowed the picture is as bright as without shadows.
+TEST_P(StencilTechniques, LeaveLitSurfacesAlone) {
+  scene::Scene s = village();
+  const scene::Light sun{scene::DirectionalLight{{0.0, 0.0, -1.0}}};
+  const auto maskOf = [&](const scene::Scene& which) {
+    EXPECT_TRUE(technique_->prepare(shadow::makeGeometry(which)));
+    auto shading = technique_->shade({eyes()[3].camera, std::span(&sun, 1)});
+    EXPECT_TRUE(shading);
+    return shading->masks[0];
+  };
+  const auto shadowed = maskOf(s);
+  for (scene::Instance& i : s.instances) i.casts = false;
+  const auto unshadowed = maskOf(s);
+  std::size_t lost = 0, won = 0;
+  for (std::size_t i = 0; i < shadowed.light.size(); ++i) {
+    lost += shadowed.light.pixels()[i] < unshadowed.light.pixels()[i];
+    won += shadowed.light.pixels()[i] > unshadowed.light.pixels()[i];
+  }
+  EXPECT_EQ(won, 0u);
+  EXPECT_GT(lost, 0u);  // the sheet's shadow
+}
+
+TEST_P(StencilTechniques, TellWhatTheyDid) {
+  ASSERT_TRUE(technique_->prepare(shadow::makeGeometry(village())));
+  const scene::Light sun = lights()[0].light;
+  const auto shading = technique_->shade({eyes()[0].camera, std::span(&sun, 1)});
+  ASSERT_TRUE(shading);
+  const auto& stats = shading->stats;
+  ASSERT_EQ(stats.lights.size(), 1u);
+  EXPECT_EQ(stats.lights[0].method, technique_->traits().name);
+  EXPECT_FALSE(stats.lights[0].reason.empty());
+  EXPECT_GT(stats.lights[0].silhouetteEdges, 0u);
+  EXPECT_GT(stats.lights[0].volumeTriangles, 0u);
+  std::vector<std::string> names;
+  for (const auto& phase : stats.phases) names.push_back(phase.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"silhouette", "extrude", "facing", "upload", "depth", "volumes", "lit", "readback"}));
+}
+
+TEST_P(StencilTechniques, SurviveEmptyScenesAndOddSizes) {
+  scene::Scene nothing;
+  nothing.materials = {{}};
+  ASSERT_TRUE(technique_->prepare(shadow::makeGeometry(nothing)));
+  scene::Camera camera = eyes()[0].camera;
+  camera.width = camera.height = 1;
+  const scene::Light sun = lights()[0].light;
+  const auto shading = technique_->shade({camera, std::span(&sun, 1)});
+  ASSERT_TRUE(shading);
+  EXPECT_EQ(shading->masks[0].covered(0, 0), 0);
+  camera.width = 1 << 20;
+  const auto tooWide = technique_->shade({camera, std::span(&sun, 1)});
+  ASSERT_FALSE(tooWide);
+  EXPECT_EQ(tooWide.error().code, ErrorCode::device);
+}
+
+INSTANTIATE_TEST_SUITE_P(Gl, StencilTechniques, ::testing::Values(makeZFail, makeZPass), [](const auto& which) {
+  return which.index == 0 ? "zfail" : "zpass";
+});
+
+TEST(GlTechniques, AreTheTwoWaysToCount) {
+  const auto entries = glTechniques();
+  ASSERT_EQ(entries.size(), 2u);
+  EXPECT_EQ(entries[0].traits.name, "zfail");
+  EXPECT_EQ(entries[1].traits.name, "zpass");
+}
+
+}  // namespace
+}  // namespace umbrage::techniques
