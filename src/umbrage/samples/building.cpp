@@ -20,7 +20,7 @@ constexpr double kRoof = kGround + kStoreys * kStorey;
 constexpr int kCoreCells = kPanels / 3;
 
 struct Palette {
-  std::uint32_t concrete, light, aluminium, bronze, glass, stone, dark;
+  std::uint32_t concrete, light, aluminium, bronze, glass, stone, dark, leaves, bark;
 };
 
 /// The plan is a drop, blunt to the west; it swells a little towards the middle of the tower.
@@ -148,7 +148,7 @@ Part core(const Palette& colour, const Skin& skin) {
   const std::array<double, 2> scales{0.36, 0.33};
   std::vector<double> heights{0.0, 2.5};
   for (int s = 0; s <= kStoreys; ++s) {
-    heights.push_back(floorHeight(s));
+    heights.push_back(floorHeight(s) + 0.0313);  // a threshold, above the slab
     heights.push_back(floorHeight(s) + 2.25);
   }
   heights.push_back(kRoof + 4.0);
@@ -187,7 +187,7 @@ Part columns(const Palette& colour, const Skin& skin) {
   for (int i = 0; i < kPanels; i += 6) {
     std::vector<Vec3> path;
     for (int s = -1; s <= kStoreys; ++s) path.push_back(skin.at(i, -1.5, s < 0 ? 0.0 : floorHeight(s) - (s == kStoreys ? 0.125 : 0.0)));
-    addSweep(part, path, regular(10, 0.3438));
+    addSweep(part, path, regular(8, 0.3438));
   }
   return part;
 }
@@ -221,8 +221,11 @@ Part crown(const Palette& colour, const Skin& skin) {
   return part;
 }
 
-Part plant(const Palette& colour) {
+Part plant(const Palette& colour, const Skin& skin) {
   Part part("Plant", colour.dark);
+  Outline lid;
+  for (int i = 0; i < kPanels; i += 3) lid.emplace_back(0.345 * Vec2(skin.at(i, 0.0, kGround)));
+  addPrism(part, lid, {0, 0, kRoof + 3.3125}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0.375});
   addBox(part, {-8.0, -3.5, kRoof - 0.125}, {-6.75, 3.5, kRoof + 3.0});
   for (const double x : {9.0, 11.5})
     for (const double y : {-2.5, 2.5}) {
@@ -239,8 +242,18 @@ constexpr double kPodiumHalfX = 34.0, kPodiumHalfY = 24.0, kPodiumHeight = 5.0;
 Part podiumDeck(const Palette& colour) {
   Part part("Deck", colour.light);
   addBox(part, {-kPodiumHalfX, -kPodiumHalfY, kPodiumHeight - 0.5}, {kPodiumHalfX, kPodiumHalfY, kPodiumHeight});
+  for (const double y : {-19.0, 17.5})
+    for (double x = -24.0; x < 24.0; x += 12.0) addBox(part, {x - 1.0, y - 1.0, kPodiumHeight - 0.125}, {x + 1.0, y + 2.5, kPodiumHeight + 0.5});
   addBox(part, {-kPodiumHalfX - 3.0, -kPodiumHalfY - 3.0, 0.0}, {kPodiumHalfX + 3.0, kPodiumHalfY + 3.0, 0.1875});
-  addBox(part, {-kPodiumHalfX - 2.25, -kPodiumHalfY - 2.25, 0.125}, {kPodiumHalfX + 2.25, kPodiumHalfY + 2.25, 0.375});
+  addBox(part, {-kPodiumHalfX - 2.25, -kPodiumHalfY - 2.25, 0.09375}, {kPodiumHalfX + 2.25, kPodiumHalfY + 2.25, 0.375});
+  return part;
+}
+
+Part tree(const Palette& colour) {
+  Part part("Tree", colour.bark);
+  addRevolved(part, {0, 0, 0}, {{0, 0}, {0.1875, 0}, {0.125, 2.25}, {0, 2.25}}, 6);
+  part.use(colour.leaves);
+  addBlob(part, {0, 0, 3.0}, {1.25, 1.25, 1.5}, 1, 0.09);
   return part;
 }
 
@@ -251,18 +264,20 @@ void alongPodium(double spacing, const Make& make) {
     const Mat4 frame = placed(Vec3(0.0), turn);
     const auto at = [&](double along, double depth, double z) { return transformPoint(frame, Vec3(along, depth - out, z)); };
     const int count = static_cast<int>(std::lround(2.0 * half / spacing));
-    for (int i = 0; i < count; ++i) make(at, -half + 2.0 * half * i / count, -half + 2.0 * half * (i + 1) / count);
+    for (int i = 0; i < count; ++i) make(at, -half + 2.0 * half * i / count, -half + 2.0 * half * (i + 1) / count, i == 0);
   }
 }
 
 Part podiumFrame(const Palette& colour) {
   Part part("Frame", colour.stone);
-  alongPodium(1.0, [&](const auto& at, double a, double b) {
-    if (a < -0.99 * kPodiumHalfX) return;  // the corner belongs to the other side
+  alongPodium(1.0, [&](const auto& at, double a, double b, bool first) {
+    if (first) return;  // the corner belongs to the other side
     const double x = 0.5 * (a + b);
     const Vec3 p = at(x - 0.0938, 0.25, 0.25), q = at(x + 0.0938, 0.75, kPodiumHeight - 0.25);
     addBox(part, glm::min(p, q), glm::max(p, q));
   });
+  for (const double x : {-kPodiumHalfX + 0.5, kPodiumHalfX - 0.5})
+    for (const double y : {-kPodiumHalfY + 0.5, kPodiumHalfY - 0.5}) addBeam(part, {x, y, 0.3125}, {x, y, kPodiumHeight - 0.3125}, 0.75);
   for (const double z : {kPodiumHeight + 0.125, kPodiumHeight - 0.625}) {
     const double x = kPodiumHalfX - 0.25, y = kPodiumHalfY - 0.25;
     addSweep(part, std::array{Vec3(-x, -y, z), Vec3(x, -y, z), Vec3(x, y, z), Vec3(-x, y, z)}, rectangle(0.75, 0.375), Ends::joined);
@@ -272,7 +287,7 @@ Part podiumFrame(const Palette& colour) {
 
 Part podiumPanes(const Palette& colour) {
   Part part("Panes", colour.glass);
-  alongPodium(2.0, [&](const auto& at, double a, double b) {
+  alongPodium(2.0, [&](const auto& at, double a, double b, bool) {
     addSheet(part, at(a, 0.8125, 0.375), at(b, 0.8125, 0.375), at(b, 0.8125, kPodiumHeight - 0.5), at(a, 0.8125, kPodiumHeight - 0.5));
   });
   return part;
@@ -280,7 +295,7 @@ Part podiumPanes(const Palette& colour) {
 
 Part railing(const Palette& colour) {
   Part part("Railing", colour.dark);
-  alongPodium(0.5, [&](const auto& at, double a, double b) {
+  alongPodium(0.5, [&](const auto& at, double a, double b, bool) {
     const double x = 0.5 * (a + b);
     addBeam(part, at(x, 0.3125, kPodiumHeight + 0.25), at(x, 0.3125, kPodiumHeight + 1.3125), 0.0313);
   });
@@ -297,7 +312,8 @@ scene::Scene building() {
   SceneBuilder scene("building");
   const Palette colour{scene.material("concrete", 0xaba69c), scene.material("concrete, light", 0xcfcac0), scene.material("aluminium", 0xc3ccd1),
                        scene.material("bronze", 0x9c7f5c),   scene.material("glass", 0x8fb8cc, 0.4),      scene.material("stone", 0xd8cbb2),
-                       scene.material("dark steel", 0x565e64)};
+                       scene.material("dark steel", 0x565e64), scene.material("leaves", 0x769a55),
+                       scene.material("bark", 0x6b523c)};
   const Skin skin(kPanels);
   scene.place("Tower/Concrete", core(colour, skin));
   scene.place("Tower/Concrete", slabs(colour, skin));
@@ -308,11 +324,14 @@ scene::Scene building() {
   scene.place("Tower/Facade", fins(colour, skin));
   scene.place("Tower/Facade", panes(colour, skin));
   scene.place("Tower/Roof", crown(colour, skin));
-  scene.place("Tower/Roof", plant(colour));
+  scene.place("Tower/Roof", plant(colour, skin));
   scene.place("Podium/Concrete", podiumDeck(colour));
   scene.place("Podium/Facade", podiumFrame(colour));
   scene.place("Podium/Facade", podiumPanes(colour));
   scene.place("Podium", railing(colour));
+  const std::uint32_t trees = scene.share(tree(colour));
+  for (int i = 0; i < 8; ++i)
+    scene.place("Podium/Trees/Tree " + std::to_string(i + 1), trees, placed({-24.0 + 12.0 * (i % 4), i < 4 ? -18.0 : 18.5, kPodiumHeight + 0.375}, i));
   return std::move(scene).take();
 }
 

@@ -188,7 +188,7 @@ Part dormers(const Palette& colour) {
 Part chimneys(const Palette& colour) {
   Part part("Chimneys", colour.brick);
   onFourSides([&](const auto& at, int) {
-    for (const double axis : {-11.25, 3.75, 15.0}) {
+    for (const double axis : {-15.0, -7.5, 7.5, 15.0}) {
       part.use(colour.brick);
       addBeam(part, at(axis, 23.5, 20.5), at(axis, 23.5, 23.25), 1.5, 0.75);
       part.use(colour.stone);
@@ -217,14 +217,14 @@ Part tree(const Palette& colour) {
 
 Part kioskFrame(const Palette& colour) {
   Part part("Columns", colour.iron);
-  for (const Vec2& p : regular(8, 2.75)) addRevolved(part, {p, 0.25}, {{0, 0}, {0.0938, 0}, {0.0938, 2.75}, {0, 2.75}}, 8);
+  for (const Vec2& p : regular(8, 2.75)) addRevolved(part, {p, 0.375}, {{0, 0}, {0.0938, 0}, {0.0938, 2.625}, {0, 2.625}}, 8);
   std::vector<Vec3> ring;
   for (const Vec2& p : regular(8, 2.75)) ring.emplace_back(p, 3.0);
   addSweep(part, ring, rectangle(0.25, 0.25), Ends::joined);
   part.use(colour.stone);
-  addRevolved(part, {0, 0, 0}, {{0, 0.0}, {3.5, 0.0}, {3.5, 0.1875}, {3.25, 0.1875}, {3.25, 0.375}, {0, 0.375}}, 24);
+  addRevolved(part, {0, 0, 0}, {{0, 0.0}, {3.5, 0.0}, {3.5, 0.25}, {3.25, 0.25}, {3.25, 0.4375}, {0, 0.4375}}, 24);
   part.use(colour.wood);
-  addRevolved(part, {0, 0, 0.25}, {{0, 0}, {1.25, 0}, {1.25, 1.0}, {1.5, 1.0}, {1.5, 1.125}, {0, 1.125}}, 12);
+  addRevolved(part, {0, 0, 0.375}, {{0, 0}, {1.25, 0}, {1.25, 1.0}, {1.5, 1.0}, {1.5, 1.125}, {0, 1.125}}, 12);
   return part;
 }
 

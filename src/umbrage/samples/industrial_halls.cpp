@@ -45,7 +45,7 @@ Part sawToothHall(const Colours& colour) {
   part.use(colour.blue);
   for (const double y : {-kHalfDepth, kHalfDepth})
     for (int i = 0; i <= kTeeth; ++i) {
-      const double x = -kHalfLength + i * kBay + (i == 0 ? 0.25 : i == kTeeth ? -0.25 : 0.0);
+      const double x = -kHalfLength + i * kBay + (i == 0 ? 0.125 : i == kTeeth ? -0.125 : 0.0);
       addBox(part, {x - 0.25, y - 0.25, 0}, {x + 0.25, y + 0.25, kEaves + 0.125});
     }
   part.use(colour.door);
@@ -90,7 +90,7 @@ Part conveyorTruss(const Colours& colour) {
     addBeam(part, truss.at(a, -kHalfWidth, -kHalfHeight), truss.at(a, kHalfWidth, -kHalfHeight), 0.1875);
     addBeam(part, truss.at(a, -kHalfWidth, kHalfHeight), truss.at(a, kHalfWidth, kHalfHeight), 0.1875);
   }
-  for (const double along : {0.3, 0.65}) {
+  for (const double along : {0.25, 0.5}) {
     const Vec3 left = truss.at(along, -kHalfWidth, -kHalfHeight), right = truss.at(along, kHalfWidth, -kHalfHeight);
     const Vec3 spread = 1.25 * truss.side;
     const Vec3 leftFoot = Vec3(left.x, left.y, 0.25) - spread, rightFoot = Vec3(right.x, right.y, 0.25) + spread;

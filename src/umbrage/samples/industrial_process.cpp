@@ -9,7 +9,7 @@
 namespace umbrage::samples::detail::plant {
 namespace {
 
-constexpr double kRackWest = -84.0, kRackEast = 60.0, kRackHalf = 3.0;
+constexpr double kRackWest = -84.0, kRackEast = -6.0, kRackHalf = 3.0;
 constexpr std::array<double, 3> kRackLevels{5.0, 6.75, 8.5};
 
 // The process frame: three bays by two, four storeys.
@@ -50,7 +50,7 @@ Part rackPipes(const Colours& colour) {
       std::vector<Vec3> path{{kRackWest - 2.0 - 0.5 * static_cast<double>(number % 3), line, z}};
       if (level == kRackLevels.back() && number % 2 == 0) {
         // An expansion loop takes up the pipe's lengthening in the heat.
-        const double x = -30.0 + 9.0 * y;
+        const double x = -40.0 + 9.0 * y;
         for (const Vec3& p : {Vec3(x, line, z), Vec3(x, line, z + 2.5), Vec3(x + 4.0, line, z + 2.5), Vec3(x + 4.0, line, z)}) path.push_back(p);
       }
       path.emplace_back(kRackEast + 1.0 + 0.5 * static_cast<double>(number % 3), line, z);
@@ -65,8 +65,8 @@ Part rackPipes(const Colours& colour) {
   // Risers that leave the rack for the process frame, the spheres and the tanks.
   for (int i = 0; i < 6; ++i) {
     part.use(paints[static_cast<std::size_t>(i) % 4]);
-    const double x = -16.0 + 2.75 * i, z = 10.25 + 0.5 * (i % 2);
-    addSweep(part, std::array{Vec3(x, 25.0, 6.0), Vec3(x, 25.0, z), Vec3(x, -7.5 - 2.0 * i, z), Vec3(x, -7.5 - 2.0 * i, 3.0)}, regular(12, 0.1875));
+    const double x = -22.0 + 2.5 * i, z = 10.25 + 0.5 * (i % 2);
+    addSweep(part, std::array{Vec3(x, 25.0, 6.0), Vec3(x, 25.0, z), Vec3(x, -7.5 - 2.0 * i, z), Vec3(x, -7.5 - 2.0 * i, 3.0)}, regular(12, 0.1563));
   }
   for (const double x : {-76.0, -54.0}) {
     addSweep(part, std::array{Vec3(x, 28.0, 7.0), Vec3(x, 28.0, 1.0), Vec3(x, 42.0, 1.0)}, regular(12, 0.25));
@@ -144,20 +144,21 @@ Part processStairs(const Colours& colour) {
   double low = 0.0;
   for (std::size_t level = 0; level < kFrameZ.size(); ++level) {
     const double high = kFrameZ[level] + 0.1875, sense = level % 2 == 0 ? 1.0 : -1.0, start = -9.5 - sense * 2.75;
+    const double lane = level % 2 == 0 ? -19.75 : -21.0;
     const int steps = 20;
     for (int i = 1; i < steps; ++i) {
-      const double x = -19.75, y = start + sense * 5.5 * i / steps, z = low + (high - low) * i / steps;
-      addBox(part, {x - 0.5, y - 0.125, z - 0.03125}, {x + 0.5, y + 0.125, z + 0.03125});
+      const double y = start + sense * 5.5 * i / steps, z = low + (high - low) * i / steps;
+      addBox(part, {lane - 0.5, y - 0.125, z - 0.03125}, {lane + 0.5, y + 0.125, z + 0.03125});
     }
-    for (const double x : {-20.25, -19.25}) {
+    for (const double x : {lane - 0.5, lane + 0.5}) {
       addBeam(part, {x, start, low + 0.1875}, {x, start + sense * 5.5, high}, 0.0781, 0.25);
       addBeam(part, {x, start, low + 1.0}, {x, start + sense * 5.5, high + 1.0}, 0.0625);
-      addBeam(part, {x, start + sense * 0.1, low + 0.0625}, {x, start + sense * 0.1, low + 1.0}, 0.0781);
+      addBeam(part, {x, start + sense * 0.1, low + 0.0625}, {x, start + sense * 0.1, low + 1.0}, 0.0938);
     }
-    addBox(part, {-20.5, start + sense * 6.125 - 0.75, high - 0.0625}, {-18.375, start + sense * 6.125 + 0.75, high + 0.0625});
+    addBox(part, {-21.625, start + sense * 6.125 - 0.75, high - 0.0469}, {-18.375, start + sense * 6.125 + 0.75, high + 0.0469});
     low = high;
   }
-  for (const double y : {-13.25, -5.75}) addBox(part, {-20.4375, y - 0.0938, 0.0}, {-20.25, y + 0.0938, 17.25});
+  for (const double y : {-13.25, -5.75}) addBox(part, {-21.6875, y - 0.1094, 0.0}, {-21.4688, y + 0.1094, 17.25});
   return part;
 }
 

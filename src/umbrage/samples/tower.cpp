@@ -53,13 +53,15 @@ Edge between(const Edge& a, const Edge& b) {
   return middle;
 }
 
-/// One face of the lattice: a middle chord, horizontals from chord to chord, crosses in both halves.
-void brace(Part& part, const Edge& a, const Edge& b, const Vec3& outwards, double size) {
+/// One face of the lattice: a middle chord, horizontals from chord to chord, crosses in both halves. `lift` keeps the horizontals of
+/// neighbouring faces out of each other's planes.
+void brace(Part& part, const Edge& a, const Edge& b, const Vec3& outwards, double size, double lift) {
   const Edge middle = between(a, b);
   addSweep(part, middle, rectangle(1.4 * size, 1.4 * size));
   cross(part, a, middle, outwards, size);
   cross(part, middle, b, -outwards, size);
-  for (std::size_t i = 1; i + 1 < a.size(); ++i) addBeam(part, a[i], b[i], 1.25 * size, 1.5 * size);
+  const Vec3 up{0, 0, lift};
+  for (std::size_t i = 0; i + 1 < a.size(); ++i) addBeam(part, a[i] + up, b[i] + up, 1.25 * size, 1.5 * size);
 }
 
 /// One leg of square plan in the quadrant (sx, sy).
@@ -79,7 +81,7 @@ Part leg(const Palette& colour, const std::string& name, double sx, double sy) {
   const std::array<Vec3, 4> normals{Vec3(0, sy, 0), Vec3(-sx, 0, 0), Vec3(0, -sy, 0), Vec3(sx, 0, 0)};
   for (const Edge& chord : chords) addSweep(part, chord, rectangle(0.9375, 0.9375));
   part.use(colour.light);
-  for (std::size_t f = 0; f < 4; ++f) brace(part, chords[f], chords[(f + 1) % 4], normals[f], 0.3125);
+  for (std::size_t f = 0; f < 4; ++f) brace(part, chords[f], chords[(f + 1) % 4], normals[f], 0.3125, f % 2 == 0 ? 0.0 : 0.0469);
   return part;
 }
 
@@ -95,7 +97,7 @@ Part shaft(const Palette& colour) {
   const std::array<Vec3, 4> normals{Vec3(0, 1, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0), Vec3(1, 0, 0)};
   for (const Edge& chord : chords) addSweep(part, chord, rectangle(0.8125, 0.8125));
   part.use(colour.light);
-  for (std::size_t f = 0; f < 4; ++f) brace(part, chords[f], chords[(f + 1) % 4], normals[f], 0.25);
+  for (std::size_t f = 0; f < 4; ++f) brace(part, chords[f], chords[(f + 1) % 4], normals[f], 0.25, f % 2 == 0 ? 0.0 : 0.0469);
   return part;
 }
 
@@ -163,7 +165,7 @@ void platform(Part& part, const Palette& colour, double z, double half, double h
       const double a = -half + 0.25 + (2.0 * half - 0.5) * i / posts, b = -half + 0.25 + (2.0 * half - 0.5) * (i + 1) / posts;
       const double f = (half - 1.0) / (half - 0.25);
       part.use(colour.iron);
-      addBeam(part, at(a, half - 0.25, z + 0.125), at(a, half - 0.25, z + 1.25), 0.125);
+      addBeam(part, at(a, half - 0.25, z + 0.125), at(a, half - 0.25, z + 1.25), 0.0938);
       part.use(colour.light);
       const double low = z - girder, high = z - 0.125;
       addBeam(part, at(a * f, half - 0.875, low), at(b * f, half - 0.875, high), 0.1875);
