@@ -27,12 +27,17 @@ class Grid {
 
   /// `solid`: the convex solid the polygon belongs to, or kNobody.
   void add(const Polygon& polygon, std::uint32_t solid) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (int i = 0; i < polygon.size; ++i) {
-      low = std::min(low, polygon.corners[i].y);
-      high = std::max(high, polygon.corners[i].y);
-    }
-    for (int row = cell(low - kSlack); row <= cell(high + kSlack); ++row) addRow(polygon, row, solid);
+    visit(polygon, [&](std::size_t i) {
+      if (solid != kNobody && last_[i] == solid) return true;
+      last_[i] = solid;
+      ++count_[i];
+      return true;
+    });
+  }
+
+  /// Whether no cell would count more than `limit` with this polygon added.
+  [[nodiscard]] bool fits(const Polygon& polygon, std::uint32_t solid, int limit) const {
+    return visit(polygon, [&](std::size_t i) { return count_[i] < limit || (solid != kNobody && last_[i] == solid); });
   }
 
   [[nodiscard]] int largest() const { return *std::max_element(count_.begin(), count_.end()); }
@@ -44,8 +49,22 @@ class Grid {
   [[nodiscard]] std::size_t cells() const { return std::size_t(resolution_) * std::size_t(resolution_); }
   [[nodiscard]] int cell(double v) const { return static_cast<int>(std::clamp(std::floor(v), 0.0, resolution_ - 1.0)); }
 
+  // Calls fn(index) for the cells that a polygon touches, until fn returns false; true when it never did.
+  template <class Fn>
+  bool visit(const Polygon& polygon, const Fn& fn) const {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (int i = 0; i < polygon.size; ++i) {
+      low = std::min(low, polygon.corners[i].y);
+      high = std::max(high, polygon.corners[i].y);
+    }
+    for (int row = cell(low - kSlack); row <= cell(high + kSlack); ++row)
+      if (!visitRow(polygon, row, fn)) return false;
+    return true;
+  }
+
   // The cells of one row that the polygon touches: the extent in x of its part between y = row and y = row + 1.
-  void addRow(const Polygon& polygon, int row, std::uint32_t solid) {
+  template <class Fn>
+  bool visitRow(const Polygon& polygon, int row, const Fn& fn) const {
     double left = std::numeric_limits<double>::infinity(), right = -left;
     const auto take = [&](double x) {
       left = std::min(left, x);
@@ -59,13 +78,10 @@ class Grid {
       for (const double y : {bottom, top})
         if ((a.y < y) != (b.y < y)) take(a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)));
     }
-    if (left > right) return;
-    for (int column = cell(left - kSlack); column <= cell(right + kSlack); ++column) {
-      const std::size_t i = std::size_t(row) * std::size_t(resolution_) + std::size_t(column);
-      if (solid != kNobody && last_[i] == solid) continue;
-      last_[i] = solid;
-      ++count_[i];
-    }
+    if (left > right) return true;
+    for (int column = cell(left - kSlack); column <= cell(right + kSlack); ++column)
+      if (!fn(std::size_t(row) * std::size_t(resolution_) + std::size_t(column))) return false;
+    return true;
   }
 
   int resolution_;
@@ -73,7 +89,7 @@ class Grid {
   std::vector<std::uint32_t> last_;
 };
 
-// Calls visit(corners relative to the light, solid) for every counted triangle, solids' triangles in succession.
+// Calls visit(triangle, corners relative to the light, solid) for every counted triangle, solids' triangles in succession.
 template <class Visit>
 void forEachCounted(const CasterSet& casters, const Silhouette& silhouette, const Visit& visit) {
   const Vec4& light = silhouette.light;
@@ -82,32 +98,44 @@ void forEachCounted(const CasterSet& casters, const Silhouette& silhouette, cons
     std::array<Vec3, 3> corners;
     for (int k = 0; k < 3; ++k) corners[k] = casters.corner(t, k) - (light.w != 0.0 ? Vec3(light) : Vec3(0.0));
     const bool lit = silhouette.side[t] * casters.outward[t] > 0;
-    visit(corners, lit ? casters.componentOf[t] : kNobody);
+    visit(t, corners, lit ? casters.componentOf[t] : kNobody);
   }
 }
 
-int boundAlong(const CasterSet& casters, const Silhouette& silhouette, int resolution) {
-  const Vec3 direction = glm::normalize(Vec3(silhouette.light));
-  const Vec3 helper = std::abs(direction.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
-  const Vec3 u = glm::normalize(glm::cross(direction, helper)), v = glm::cross(direction, u);
-  Vec2 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
-  forEachCounted(casters, silhouette, [&](const std::array<Vec3, 3>& corners, std::uint32_t) {
-    for (const Vec3& c : corners) {
-      const Vec2 p(glm::dot(c, u), glm::dot(c, v));
-      low = glm::min(low, p);
-      high = glm::max(high, p);
-    }
-  });
-  if (!(low.x <= high.x)) return 0;
-  const double scale = resolution / std::max({high.x - low.x, high.y - low.y, std::numeric_limits<double>::min()});
-  Grid grid(resolution);
-  forEachCounted(casters, silhouette, [&](const std::array<Vec3, 3>& corners, std::uint32_t solid) {
+// How a light sees its casters: one square of parallel rays, or the six faces of a cube around it. `pieces` calls
+// fn(face, polygon) for the parts of a triangle on each.
+class ParallelView {
+ public:
+  ParallelView(const CasterSet& casters, const Silhouette& silhouette, int resolution) {
+    const Vec3 direction = glm::normalize(Vec3(silhouette.light));
+    const Vec3 helper = std::abs(direction.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+    u_ = glm::normalize(glm::cross(direction, helper));
+    v_ = glm::cross(direction, u_);
+    Vec2 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
+    forEachCounted(casters, silhouette, [&](std::uint32_t, const std::array<Vec3, 3>& corners, std::uint32_t) {
+      for (const Vec3& c : corners) {
+        low = glm::min(low, flat(c));
+        high = glm::max(high, flat(c));
+      }
+    });
+    low_ = low;
+    scale_ = resolution / std::max({high.x - low.x, high.y - low.y, std::numeric_limits<double>::min()});
+  }
+
+  static constexpr int kFaces = 1;
+  template <class Fn>
+  void pieces(const std::array<Vec3, 3>& corners, const Fn& fn) const {
     Polygon polygon;
-    for (const Vec3& c : corners) polygon.add((Vec2(glm::dot(c, u), glm::dot(c, v)) - low) * scale);
-    grid.add(polygon, solid);
-  });
-  return grid.largest();
-}
+    for (const Vec3& c : corners) polygon.add((flat(c) - low_) * scale_);
+    fn(0, polygon);
+  }
+
+ private:
+  [[nodiscard]] Vec2 flat(const Vec3& p) const { return {glm::dot(p, u_), glm::dot(p, v_)}; }
+  Vec3 u_, v_;
+  Vec2 low_;
+  double scale_ = 1.0;
+};
 
 // The part of a polygon in front of a plane through the light.
 std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, const Vec3& inward) {
@@ -154,19 +182,64 @@ struct CubeFace {
   }
 };
 
-int boundAround(const CasterSet& casters, const Silhouette& silhouette, int resolution) {
-  std::vector<Grid> grids(6, Grid(resolution));
-  forEachCounted(casters, silhouette, [&](const std::array<Vec3, 3>& corners, std::uint32_t solid) {
-    for (int f = 0; f < 6; ++f) {
+class CubeView {
+ public:
+  CubeView(const CasterSet&, const Silhouette&, int resolution) : resolution_(resolution) {}
+
+  static constexpr int kFaces = 6;
+  template <class Fn>
+  void pieces(const std::array<Vec3, 3>& corners, const Fn& fn) const {
+    for (int f = 0; f < kFaces; ++f) {
       const CubeFace face(f);
       if (!face.mayTouch(corners)) continue;
-      const Polygon polygon = face.project(corners, resolution);
-      if (polygon.size > 0) grids[f].add(polygon, solid);
+      if (const Polygon polygon = face.project(corners, resolution_); polygon.size > 0) fn(f, polygon);
     }
+  }
+
+ private:
+  int resolution_;
+};
+
+// Calls fn(view) with the way the light sees.
+template <class Fn>
+auto withView(const CasterSet& casters, const Silhouette& silhouette, int resolution, const Fn& fn) {
+  if (silhouette.light.w == 0.0) return fn(ParallelView(casters, silhouette, resolution));
+  return fn(CubeView(casters, silhouette, resolution));
+}
+
+int boundAt(const CasterSet& casters, const Silhouette& silhouette, int resolution) {
+  return withView(casters, silhouette, resolution, [&](const auto& view) {
+    std::vector<Grid> grids(view.kFaces, Grid(resolution));
+    forEachCounted(casters, silhouette, [&](std::uint32_t, const std::array<Vec3, 3>& corners, std::uint32_t solid) {
+      view.pieces(corners, [&](int face, const Polygon& polygon) { grids[face].add(polygon, solid); });
+    });
+    int largest = 0;
+    for (const Grid& grid : grids) largest = std::max(largest, grid.largest());
+    return largest;
   });
-  int largest = 0;
-  for (const Grid& grid : grids) largest = std::max(largest, grid.largest());
-  return largest;
+}
+
+constexpr std::size_t kMostGroups = 256;
+
+template <class View>
+LayerGroups firstFit(const CasterSet& casters, const Silhouette& silhouette, const View& view, int limit) {
+  std::vector<std::vector<Grid>> groups;
+  LayerGroups result;
+  result.ofTriangle.assign(casters.triangles.size(), 0);
+  forEachCounted(casters, silhouette, [&](std::uint32_t t, const std::array<Vec3, 3>& corners, std::uint32_t solid) {
+    const auto fits = [&](const std::vector<Grid>& group) {
+      bool all = true;
+      view.pieces(corners, [&](int face, const Polygon& p) { all = all && group[face].fits(p, solid, limit); });
+      return all;
+    };
+    std::size_t g = 0;
+    while (g < groups.size() && g + 1 < kMostGroups && !fits(groups[g])) ++g;
+    if (g == groups.size()) groups.emplace_back(view.kFaces, Grid(kResolutions.back()));
+    view.pieces(corners, [&](int face, const Polygon& polygon) { groups[g][face].add(polygon, solid); });
+    result.ofTriangle[t] = static_cast<std::uint8_t>(g);
+  });
+  result.count = std::max(1, static_cast<int>(groups.size()));
+  return result;
 }
 
 }  // namespace
@@ -175,11 +248,23 @@ int layeringBound(const CasterSet& casters, const Silhouette& silhouette, int en
   auto bound = static_cast<int>(std::count_if(silhouette.side.begin(), silhouette.side.end(), [](int s) { return s != 0; }));
   for (const int resolution : kResolutions) {
     if (bound <= enough) break;
-    const int finer = silhouette.light.w == 0.0 ? boundAlong(casters, silhouette, resolution)
-                                                : boundAround(casters, silhouette, resolution);
-    bound = std::min(bound, finer);
+    bound = std::min(bound, boundAt(casters, silhouette, resolution));
   }
   return bound;
+}
+
+LayerGroups groupLayers(const CasterSet& casters, const Silhouette& silhouette, int limit) {
+  if (layeringBound(casters, silhouette, limit) <= limit) return {};
+  return withView(casters, silhouette, kResolutions.back(),
+                  [&](const auto& view) { return firstFit(casters, silhouette, view, limit); });
+}
+
+Silhouette restrictTo(const CasterSet& casters, const Silhouette& silhouette, const LayerGroups& groups, int group) {
+  if (groups.ofTriangle.empty()) return silhouette;
+  std::vector<std::int8_t> side = silhouette.side;
+  for (std::size_t t = 0; t < side.size(); ++t)
+    if (groups.ofTriangle[t] != group) side[t] = 0;
+  return silhouetteOf(casters, silhouette.light, std::move(side));
 }
 
 }  // namespace umbrage::shadow

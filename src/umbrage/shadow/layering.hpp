@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "umbrage/shadow/silhouette.hpp"
 
 namespace umbrage::shadow {
@@ -12,5 +15,20 @@ inline constexpr int kStencilLimit = 255;
 /// no finer grid is worth its time. Cost: some tens of nanoseconds a counted triangle.
 /// Law: countSurfaces(..).count <= layeringBound(..) at every point.
 [[nodiscard]] int layeringBound(const CasterSet& casters, const Silhouette& silhouette, int enough = kStencilLimit);
+
+/// Counted triangles in groups, so that no ray meets more than a limit of one group: what lets an 8-bit stencil count any scene.
+struct LayerGroups {
+  int count = 1;
+  std::vector<std::uint8_t> ofTriangle;  ///< per caster triangle; empty when there is one group
+};
+
+/// First fit, in the order of the triangles. One group whenever layeringBound is within `limit`.
+/// 1. countSurfaces with one group's silhouette (restrictTo) is at most `limit` at every point.
+/// CAVEAT: at most 256 groups; what fits in none goes to the last.
+[[nodiscard]] LayerGroups groupLayers(const CasterSet& casters, const Silhouette& silhouette, int limit);
+
+/// The silhouette of one group alone: its volume is watertight like every other.
+[[nodiscard]] Silhouette restrictTo(const CasterSet& casters, const Silhouette& silhouette, const LayerGroups& groups,
+                                    int group);
 
 }  // namespace umbrage::shadow

@@ -333,6 +333,24 @@ RC_GTEST_PROP(LayeringBound, IsNeverTooSmall, ()) {
   }
 }
 
+RC_GTEST_PROP(GroupLayers, KeepsEveryGroupWithinTheLimitAndLosesNoShadow, ()) {
+  const Soup soup = latticeSoup();
+  const CasterSet casters = buildCasters(soup.positions, soup.triangles);
+  const Silhouette s = findSilhouette(casters, latticeLight(), {.countEverySurface = *rc::gen::inRange(0, 2) == 1});
+  const int limit = *rc::gen::inRange(1, 4);
+  const LayerGroups groups = groupLayers(casters, s, limit);
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 point = Vec3(latticePoint(7)) + Vec3(0.3113, 0.2371, 0.1709);
+    int sum = 0;
+    for (int g = 0; g < groups.count; ++g) {
+      const int part = countSurfaces(casters, restrictTo(casters, s, groups, g), point).count;
+      RC_ASSERT(part <= limit);
+      sum += part;
+    }
+    RC_ASSERT(sum == countSurfaces(casters, s, point).count);
+  }
+}
+
 // --- facing, masks, pictures ---------------------------------------------------------------------------------------------
 
 TEST(Facing, IsTheSameSideForEyeAndLight) {

@@ -1,5 +1,7 @@
 #include "umbrage/shadow/silhouette.hpp"
 
+#include <utility>
+
 #include "umbrage/math/predicates.hpp"
 
 namespace umbrage::shadow {
@@ -26,10 +28,15 @@ void leaveOutAvertedFaces(const CasterSet& casters, std::vector<std::int8_t>& si
 }  // namespace
 
 Silhouette findSilhouette(const CasterSet& casters, const Vec4& light, const SilhouetteOptions& options) {
+  std::vector<std::int8_t> side = sidesOf(casters, light);
+  if (!options.countEverySurface) leaveOutAvertedFaces(casters, side);
+  return silhouetteOf(casters, light, std::move(side));
+}
+
+Silhouette silhouetteOf(const CasterSet& casters, const Vec4& light, std::vector<std::int8_t> side) {
   Silhouette silhouette;
   silhouette.light = light;
-  silhouette.side = sidesOf(casters, light);
-  if (!options.countEverySurface) leaveOutAvertedFaces(casters, silhouette.side);
+  silhouette.side = std::move(side);
   silhouette.edgesTested = casters.edges.size();
   for (const CasterEdge& edge : casters.edges) {
     std::int32_t multiplicity = 0;

@@ -36,4 +36,7 @@ struct SilhouetteOptions {
 /// Source: Aldridge and Woods, robust geometry-independent shadow volumes, 2004; Kim, Kim and Turk, 2008.
 [[nodiscard]] Silhouette findSilhouette(const CasterSet& casters, const Vec4& light, const SilhouetteOptions& options = {});
 
+/// The silhouette of the triangles whose `side` is not 0, which must be that of lightSide.
+[[nodiscard]] Silhouette silhouetteOf(const CasterSet& casters, const Vec4& light, std::vector<std::int8_t> side);
+
 }  // namespace umbrage::shadow
