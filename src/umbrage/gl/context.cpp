@@ -79,6 +79,13 @@ std::string currentRenderer() {
   return text != nullptr ? text : "unknown";
 }
 
+Result<void> checkCurrentContext() {
+  // Without a context the dispatcher would abort; the version query is the one call that it answers by 0.
+  if (const int version = epoxy_gl_version(); version < 45 || !epoxy_is_desktop_gl())
+    return fail(ErrorCode::device, version <= 0 ? "no OpenGL context is current" : "the current context is older than OpenGL 4.5");
+  return {};
+}
+
 Quirks findQuirks() {
   Quirks quirks;
   const std::string renderer = currentRenderer();

@@ -12,6 +12,9 @@ struct ContextOptions {
   bool debug = false;  ///< ask for a debug context, so that DebugLog hears everything
 };
 
+/// For programs that bring their own context. Errors: ErrorCode::device when none is current or it is older than OpenGL 4.5.
+[[nodiscard]] Result<void> checkCurrentContext();
+
 /// An OpenGL 4.5 core context without a window, through EGL.
 class Context {
  public:

@@ -108,6 +108,14 @@ void set(const BlendState& b) {
   glBlendEquationSeparatei(0, e(b.equationRgb), e(b.equationAlpha));
 }
 
+int attachmentBits(GLuint framebuffer, GLenum ofWindow, GLenum ofFramebuffer, GLenum what) {
+  const GLenum attachment = framebuffer == 0 ? ofWindow : ofFramebuffer;
+  GLint type = GL_NONE, bits = 0;
+  glGetNamedFramebufferAttachmentParameteriv(framebuffer, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &type);
+  if (type != GL_NONE) glGetNamedFramebufferAttachmentParameteriv(framebuffer, attachment, what, &bits);
+  return bits;
+}
+
 }  // namespace
 
 struct HostScope::State {
@@ -249,6 +257,14 @@ HostScope::~HostScope() {
 }
 
 unsigned HostScope::hostFramebuffer() const { return static_cast<unsigned>(state_->drawFramebuffer); }
+
+int HostScope::hostStencilBits() const {
+  return attachmentBits(hostFramebuffer(), GL_STENCIL, GL_STENCIL_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE);
+}
+
+int HostScope::hostDepthBits() const {
+  return attachmentBits(hostFramebuffer(), GL_DEPTH, GL_DEPTH_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
+}
 
 PassState HostScope::hostPlacement() const {
   PassState state;

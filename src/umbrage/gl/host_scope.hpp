@@ -25,6 +25,9 @@ class HostScope {
   [[nodiscard]] unsigned hostFramebuffer() const;
   /// A baseline state that puts fragments where the host's own draws would: its first viewport, depth range and clip control.
   [[nodiscard]] PassState hostPlacement() const;
+  /// Bits of the host's draw framebuffer; 0: it has none.
+  [[nodiscard]] int hostStencilBits() const;
+  [[nodiscard]] int hostDepthBits() const;
 
  private:
   friend class Pass;

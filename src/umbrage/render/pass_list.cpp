@@ -72,7 +72,8 @@ struct Planner {
     if (plan.failSides) volume(light, plan, Draw::failSides, "sides", nearer(reversed), failDown, failUp);
     // Near caps lie on the casters and far caps at infinity: none is nearer than the picture, so all fail, without a
     // comparison that could fight with the surfaces they lie on.
-    if (plan.failCaps) volume(light, plan, Draw::failCaps, "caps", Compare::never, failDown, failUp);
+    const Compare capsPass = plan.compareCaps ? nearer(reversed) : Compare::never;
+    if (plan.failCaps) volume(light, plan, Draw::failCaps, "caps", capsPass, failDown, failUp);
   }
 
   PassStep screen(std::string name, std::string phase, Target target, Shader shader) const {

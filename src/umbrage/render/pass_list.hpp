@@ -41,6 +41,9 @@ struct PassList {
 struct LightPlan {
   int eyeCount = 0;  ///< the stencil starts from it modulo 256
   bool passSides = false, failSides = false, failCaps = false;  ///< which parts of the volume are not empty
+  /// Caps are compared with the depth, for casters that are not in the depth buffer themselves (drawn later, or transparent);
+  /// where they are, that would make caps fight with the surfaces they lie on.
+  bool compareCaps = false;
   gl::Rect volumeArea, litArea;
 };
 

@@ -73,6 +73,8 @@ View viewOf(const scene::Camera& camera, double sceneRadius) {
 View viewOf(const Mat4& view, const Mat4& projection, bool reversed) {
   UMBRAGE_CHECK(projection[3][3] == 0.0 && projection[2][3] != 0.0, "a perspective projection");
   const Mat3 rotation(view);
+  const Mat3 square = glm::transpose(rotation) * rotation - Mat3(1.0);
+  for (int c = 0; c < 3; ++c) UMBRAGE_CHECK(glm::length(square[c]) < 1e-3, "a view that rotates and moves only");
   View out;
   out.eye = -(glm::transpose(rotation) * Vec3(view[3]));
   out.toClip = projection * Mat4(rotation);

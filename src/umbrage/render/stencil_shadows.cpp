@@ -1,0 +1,54 @@
+#include "umbrage/render/stencil_shadows.hpp"
+
+#include "umbrage/gl/context.hpp"
+#include "umbrage/render/uniforms.hpp"
+
+namespace umbrage::render {
+
+Result<StencilShadows> StencilShadows::make(shadow::CasterSet casters) {
+  if (auto good = gl::checkCurrentContext(); !good) return tl::unexpected(good.error());
+  StencilShadows shadows;
+  shadows.light_.emplace_back();
+  if (auto done = shadows.setCasters(std::move(casters)); !done) return tl::unexpected(done.error());
+  return shadows;
+}
+
+Result<void> StencilShadows::setCasters(shadow::CasterSet casters) {
+  if (auto done = setStorage(positions_, std::as_bytes(std::span(casters.positions)), "positions"); !done) return done;
+  casters_ = std::move(casters);
+  return {};
+}
+
+Result<shadow::LightStats> StencilShadows::mark(const scene::Light& light, const HostView& hostView,
+                                                const StencilShadowOptions& options) {
+  gl::HostScope scope;
+  if (scope.hostStencilBits() < 8) return fail(ErrorCode::device, "the framebuffer has fewer than 8 bits of stencil");
+  if (scope.hostDepthBits() == 0) return fail(ErrorCode::device, "the framebuffer has no depth");
+  const View view = viewOf(hostView.view, hostView.projection, hostView.reversed);
+  gl::PassState placement = scope.hostPlacement();
+  placement.frontIsClockwise = mirrors(view);
+
+  shadow::LightStats stats;
+  const Vec4 homogeneous = scene::homogeneous(light, casters_.origin);
+  const LightVolume volume = prepareVolume(casters_, homogeneous, view.eye - casters_.origin, options.counting, stats);
+  stats.reason = "chosen by the host";
+  GpuLight& gpu = light_.front();
+  for (const auto& done : {gpu.view.setOne(viewBlock(view, casters_.origin, homogeneous)), gpu.volume.setAll(volume.indices)})
+    if (!done) return tl::unexpected(done.error());
+  gpu.passSides = volume.passSides;
+  gpu.failSides = volume.failSides;
+  gpu.failCaps = volume.failCaps;
+
+  const LightPlan plan{.eyeCount = volume.eyeCount,
+                       .passSides = volume.passSides.count > 0,
+                       .failSides = volume.failSides.count > 0,
+                       .failCaps = volume.failCaps.count > 0,
+                       .compareCaps = !options.castersInDepth,
+                       .volumeArea = volumeArea(view, casters_.bounds, homogeneous, casters_.origin, placement),
+                       .litArea = litArea(view, light, placement)};
+  run(scope, planPasses(placement, view.reversed, {plan}, Product::hostStencil),
+      {.programs = programs_, .positions = positions_, .lights = light_});
+  return stats;
+}
+
+}  // namespace umbrage::render

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "umbrage/render/run_passes.hpp"
+#include "umbrage/shadow/technique.hpp"
+
+namespace umbrage::render {
+
+/// How a host looks at its scene.
+struct HostView {
+  Mat4 view{1.0};        ///< world to eye: a rotation and a translation
+  Mat4 projection{1.0};  ///< a perspective, as the host's own shaders use it
+  bool reversed = false; ///< the host's nearer surfaces have the greater depth
+};
+
+struct StencilShadowOptions {
+  Counting counting = Counting::zPass;
+  /// False when some casters are not drawn into the depth buffer (invisible, or transparent ones drawn later).
+  bool castersInDepth = true;
+};
+
+/// Exact shadows inside somebody else's renderer. The host draws its scene's depth into its own framebuffer, calls mark() for a
+/// light, and adds that light where the stencil is 0; and so on for every light.
+/// REQUIRES of every call and of destruction: the host's OpenGL 4.5 context (core or compatibility) is current, with no query,
+/// transform feedback or conditional rendering active. The host's state is left as it was (gl::HostScope).
+class StencilShadows {
+ public:
+  /// Errors: ErrorCode::device when the context is too old or memory is short.
+  [[nodiscard]] static Result<StencilShadows> make(shadow::CasterSet casters);
+  /// For casters that moved.
+  [[nodiscard]] Result<void> setCasters(shadow::CasterSet casters);
+
+  /// Writes the stencil of the bound draw framebuffer, inside the current (first) viewport: 0 where the light meets no caster
+  /// on its way to the surface in the depth buffer, another value in shadow. Depth range and clip control are the host's.
+  /// 1. Whether a surface faces the light, and a spot's cone, are the host's to decide; pixels outside a spot's screen area
+  ///    may keep their old values.
+  /// Errors: ErrorCode::device when the framebuffer has no depth or fewer than 8 bits of stencil, or memory is short.
+  /// CAVEAT: counts modulo 256. Depth that the host computes coarsely (16 or 24 bits with a distant far plane) makes shadow
+  /// edges coarse in the distance; a reversed float depth does not.
+  [[nodiscard]] Result<shadow::LightStats> mark(const scene::Light& light, const HostView& view,
+                                                const StencilShadowOptions& options = {});
+
+ private:
+  StencilShadows() = default;
+  shadow::CasterSet casters_;
+  gl::Buffer positions_;
+  Programs programs_;
+  std::vector<GpuLight> light_;
+};
+
+}  // namespace umbrage::render
