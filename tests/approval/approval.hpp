@@ -26,8 +26,8 @@ inline testing::AssertionResult approved(const std::string& name, const std::str
   const std::string wanted{std::istreambuf_iterator<char>(file), {}};
   if (file && wanted == text) return testing::AssertionSuccess();
   write(received);
-  return testing::AssertionFailure() << (file ? "differs from the approved text" : "nothing was approved yet") << "\n  diff "
-                                     << expected << " " << received
+  return testing::AssertionFailure() << (file ? "differs from the approved text" : "nothing was approved yet")
+                                     << "\n  diff " << expected << " " << received
                                      << "\nwhen the new text is right, run the test again with UMBRAGE_APPROVE=1";
 }
 

@@ -165,7 +165,9 @@ class FileCheck {
   }
 
  private:
-  [[nodiscard]] bool mayCallGl() const { return room_ ? room_->name == "gl" : place_ == "examples" || place_ == "tests"; }
+  [[nodiscard]] bool mayCallGl() const {
+    return room_ ? room_->name == "gl" : place_ == "examples" || place_ == "tests";
+  }
 
   void checkInclude(int line, const Include& include) {
     if (include.name.find("..") != include.name.npos) add(line, "includes through \"..\": " + include.name);
@@ -191,7 +193,8 @@ class FileCheck {
     const auto rule = std::ranges::find_if(foreignRules(), [&](const auto& r) { return name.starts_with(r.prefix); });
     if (rule == foreignRules().end()) return add(line, "includes <" + name + ">, which has no room");
     const std::string_view here = room_ ? std::string_view(room_->name) : std::string_view(place_);
-    const bool allowed = rule->rooms.contains("*") || rule->rooms.contains(here) || (isTest_ && rule->rooms.contains("tests"));
+    const bool allowed =
+        rule->rooms.contains("*") || rule->rooms.contains(here) || (isTest_ && rule->rooms.contains("tests"));
     if (!allowed) add(line, "includes <" + name + "> outside its room");
     if (isPublic_ && !rule->inInterface) add(line, "is installed, but includes <" + name + ">");
   }

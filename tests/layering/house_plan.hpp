@@ -11,10 +11,10 @@ namespace umbrage::layering {
 /// One room as CMake knows it.
 struct Room {
   std::string name;
-  std::string folder;                ///< below src/umbrage: "techniques/gl"
-  std::set<std::string> uses;        ///< rooms it may include, itself and those that come along included
-  std::set<std::string> testUses;    ///< the same for its tests
-  std::set<std::string> headers;     ///< public headers, relative to the folder
+  std::string folder;              ///< below src/umbrage: "techniques/gl"
+  std::set<std::string> uses;      ///< rooms it may include, itself and those that come along included
+  std::set<std::string> testUses;  ///< the same for its tests
+  std::set<std::string> headers;   ///< public headers, relative to the folder
 };
 
 struct HousePlan {
@@ -39,6 +39,7 @@ struct Violation {
 /// 2. Each foreign library is included in its own rooms only, and not in installed headers unless it is part of the interface.
 /// 3. OpenGL functions are called in gl/ only.
 /// 4. A technique includes no other technique.
-[[nodiscard]] std::vector<Violation> findViolations(const HousePlan& plan, const std::string& path, std::string_view text);
+[[nodiscard]] std::vector<Violation> findViolations(const HousePlan& plan, const std::string& path,
+                                                    std::string_view text);
 
 }  // namespace umbrage::layering

@@ -59,17 +59,22 @@ class PlantedFaults : public testing::Test {
 };
 
 TEST_F(PlantedFaults, CleanFilesPass) {
-  EXPECT_THAT(check("src/umbrage/gl/pass.cpp", "#include \"umbrage/base/error.hpp\"\n#include <vector>\nglDrawArrays(1);\n"),
+  EXPECT_THAT(
+      check("src/umbrage/gl/pass.cpp", "#include \"umbrage/base/error.hpp\"\n#include <vector>\nglDrawArrays(1);\n"),
+      IsEmpty());
+  EXPECT_THAT(check("src/umbrage/trace/occlusion.cpp",
+                    "#include <embree3/rtcore.h>\n#include \"umbrage/trace/detail/x.hpp\"\n"),
               IsEmpty());
-  EXPECT_THAT(check("src/umbrage/trace/occlusion.cpp", "#include <embree3/rtcore.h>\n#include \"umbrage/trace/detail/x.hpp\"\n"),
+  EXPECT_THAT(check("src/umbrage/trace/trace_test.cpp", "#include \"umbrage/gl/pass.hpp\"\n#include <gtest/gtest.h>\n"),
               IsEmpty());
-  EXPECT_THAT(check("src/umbrage/trace/trace_test.cpp", "#include \"umbrage/gl/pass.hpp\"\n#include <gtest/gtest.h>\n"), IsEmpty());
-  EXPECT_THAT(check("src/umbrage/techniques/gl/registry.cpp", "#include \"umbrage/techniques/gl/zfail/zfail.hpp\"\nglTechniques();"),
+  EXPECT_THAT(check("src/umbrage/techniques/gl/registry.cpp",
+                    "#include \"umbrage/techniques/gl/zfail/zfail.hpp\"\nglTechniques();"),
               IsEmpty());
 }
 
 TEST_F(PlantedFaults, CommentsAreNotCode) {
-  EXPECT_THAT(check("src/umbrage/base/error.cpp", "// glClear(1)\n/* #include <epoxy/gl.h>\n glClear(1) */\nint i;  // glEnd()\n"),
+  EXPECT_THAT(check("src/umbrage/base/error.cpp",
+                    "// glClear(1)\n/* #include <epoxy/gl.h>\n glClear(1) */\nint i;  // glEnd()\n"),
               IsEmpty());
   EXPECT_THAT(check("src/umbrage/base/error.cpp", "auto s = \"// no comment\"; glClear(1);\n"), SizeIs(1));
 }
@@ -94,7 +99,8 @@ TEST_F(PlantedFaults, ForeignLibraryOutsideItsRoom) {
   EXPECT_THAT(check("src/umbrage/gl/pass.cpp", "#include <embree3/rtcore.h>\n"), SizeIs(1));
   EXPECT_THAT(check("src/umbrage/base/error.cpp", "#include <gtest/gtest.h>\n"), SizeIs(1));
   EXPECT_THAT(check("src/umbrage/base/error.cpp", "#include <unheard_of/library.h>\n"), SizeIs(1));
-  EXPECT_THAT(check("src/umbrage/trace/occlusion.hpp", "#include <embree3/rtcore.h>\n"), SizeIs(1)) << "in an installed header";
+  EXPECT_THAT(check("src/umbrage/trace/occlusion.hpp", "#include <embree3/rtcore.h>\n"), SizeIs(1))
+      << "in an installed header";
 }
 
 TEST_F(PlantedFaults, OpenGlOutsideGl) {
@@ -103,7 +109,9 @@ TEST_F(PlantedFaults, OpenGlOutsideGl) {
 }
 
 TEST_F(PlantedFaults, TechniqueIncludesTechnique) {
-  EXPECT_THAT(check("src/umbrage/techniques/gl/zpass/zpass.cpp", "#include \"umbrage/techniques/gl/zfail/zfail.hpp\"\n"), SizeIs(1));
+  EXPECT_THAT(
+      check("src/umbrage/techniques/gl/zpass/zpass.cpp", "#include \"umbrage/techniques/gl/zfail/zfail.hpp\"\n"),
+      SizeIs(1));
 }
 
 }  // namespace

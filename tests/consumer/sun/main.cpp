@@ -10,6 +10,7 @@ int main() {
   const auto place = sun::makePlace(48.2, 16.37);
   if (!place) return 1;
   const auto position = sun::sunPosition(*place, sys_days(2026y / September / 18) + 11h);
-  const bool right = std::abs(position.elevation.degrees() - 43.499) < 0.01 && std::abs(position.azimuth.degrees() - 183.900) < 0.01;
+  const bool right =
+      std::abs(position.elevation.degrees() - 43.499) < 0.01 && std::abs(position.azimuth.degrees() - 183.900) < 0.01;
   return right ? 0 : 1;
 }
