@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -40,6 +41,19 @@ TEST(Layering, EverySourceKeepsToThePlanOfTheHouse) {
       ADD_FAILURE() << v.file << ":" << v.line << ": " << v.what;
     }
   }
+}
+
+TEST(Layering, NoSourceIsLong) {
+  for (const fs::path& file : sources()) {
+    const std::string text = contents(fs::path(UMBRAGE_SOURCE_DIR) / file);
+    EXPECT_LE(std::ranges::count(text, '\n'), 500) << file;
+  }
+}
+
+TEST(Layering, EveryRoomIsInTheTableOfTheArchitecture) {
+  const std::string text = contents(fs::path(UMBRAGE_SOURCE_DIR) / "ARCHITECTURE.md");
+  for (const Room& room : readHousePlan(UMBRAGE_HOUSE_PLAN).rooms)
+    EXPECT_THAT(text, testing::HasSubstr("| `" + room.name + "` | `" + room.folder + "` |"));
 }
 
 // The rules themselves, on planted faults in a small house.
