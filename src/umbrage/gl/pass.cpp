@@ -18,6 +18,7 @@ GLenum code(Compare compare) {
     case Compare::less: return GL_LESS;
     case Compare::lessOrEqual: return GL_LEQUAL;
     case Compare::equal: return GL_EQUAL;
+    case Compare::notEqual: return GL_NOTEQUAL;
     case Compare::greater: return GL_GREATER;
     case Compare::greaterOrEqual: return GL_GEQUAL;
     case Compare::always: return GL_ALWAYS;
@@ -30,6 +31,7 @@ GLenum code(StencilOp op) {
     case StencilOp::keep: return GL_KEEP;
     case StencilOp::increment: return GL_INCR_WRAP;
     case StencilOp::decrement: return GL_DECR_WRAP;
+    case StencilOp::replace: return GL_REPLACE;
   }
   return GL_KEEP;
 }
@@ -45,8 +47,8 @@ void apply(const DepthState& depth) {
 
 void apply(const StencilState& stencil) {
   turn(GL_STENCIL_TEST, stencil.test);
-  glStencilMask(0xff);
-  glStencilFunc(code(stencil.compare), stencil.reference, 0xff);
+  glStencilMask(stencil.writeMask);
+  glStencilFunc(code(stencil.compare), stencil.reference, stencil.readMask);
   glStencilOpSeparate(GL_FRONT, GL_KEEP, code(stencil.front.depthFail), code(stencil.front.pass));
   glStencilOpSeparate(GL_BACK, GL_KEEP, code(stencil.back.depthFail), code(stencil.back.pass));
 }

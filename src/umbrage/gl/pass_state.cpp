@@ -11,6 +11,7 @@ const char* name(Compare compare) {
     case Compare::less: return "less";
     case Compare::lessOrEqual: return "less-or-equal";
     case Compare::equal: return "equal";
+    case Compare::notEqual: return "not-equal";
     case Compare::greater: return "greater";
     case Compare::greaterOrEqual: return "greater-or-equal";
     case Compare::always: return "always";
@@ -23,6 +24,7 @@ const char* name(StencilOp op) {
     case StencilOp::keep: return "=";
     case StencilOp::increment: return "+";
     case StencilOp::decrement: return "-";
+    case StencilOp::replace: return "!";
   }
   return "?";
 }
@@ -45,6 +47,8 @@ std::string text(const StencilState& stencil) {
   if (!stencil.test) return {};
   std::string out = std::string("; stencil ") + name(stencil.compare);
   if (stencil.compare != Compare::always) out += " " + std::to_string(stencil.reference);
+  if (stencil.readMask != 0xff) out += " of bits " + std::to_string(stencil.readMask);
+  if (stencil.writeMask != 0xff) out += ", into bits " + std::to_string(stencil.writeMask);
   if (stencil.front == StencilFace{} && stencil.back == StencilFace{}) return out;
   return out + ", front" + text(stencil.front) + ", back" + text(stencil.back);
 }

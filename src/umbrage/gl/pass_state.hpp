@@ -15,8 +15,8 @@ struct Rect {
 };
 [[nodiscard]] Rect intersect(const Rect& a, const Rect& b);
 
-enum class Compare { never, less, lessOrEqual, equal, greater, greaterOrEqual, always };
-enum class StencilOp { keep, increment, decrement };  ///< both wrap around
+enum class Compare { never, less, lessOrEqual, equal, notEqual, greater, greaterOrEqual, always };
+enum class StencilOp { keep, increment, decrement, replace };  ///< counting wraps around; replace: by the reference
 
 struct DepthState {
   bool test = false;
@@ -35,8 +35,10 @@ struct StencilFace {
 
 struct StencilState {
   bool test = false;
-  Compare compare = Compare::always;  ///< reference against stored value
+  Compare compare = Compare::always;  ///< reference against stored value, both under readMask
   std::uint8_t reference = 0;
+  std::uint8_t readMask = 0xff;
+  std::uint8_t writeMask = 0xff;  ///< for clears too
   StencilFace front, back;
   friend bool operator==(const StencilState&, const StencilState&) = default;
 };

@@ -42,38 +42,67 @@ struct Planner {
 
   Target stencilTarget() const { return product == Product::hostStencil ? Target::host : Target::stencil; }
 
-  void startCount(int light, const LightPlan& plan) {
+  // Several groups of volumes take turns in the lower bits; the highest keeps what was in shadow before.
+  static constexpr std::uint8_t kAllBits = 0xff, kCountBits = 0x7f, kKeepBit = 0x80;
+
+  void startCount(int light, const LightPlan& plan, int group) {
+    const std::uint8_t bits = plan.groups.size() > 1 ? kCountBits : kAllBits;
     PassStep s = step("start the count", "volumes", stencilTarget());
     s.light = light;
-    s.clearStencil = static_cast<std::uint8_t>(plan.eyeCount & 0xff);
+    s.group = group;
+    s.clearStencil = static_cast<std::uint8_t>(plan.groups[static_cast<std::size_t>(group)].eyeCount & bits);
+    if (group > 0) s.state.stencil.writeMask = bits;
     if (plan.litArea != placement.viewport) s.state.scissor = plan.litArea;
     list.steps.push_back(s);
   }
 
   // The volumes can only change the count inside their area, and only matter where the light arrives.
-  void volume(int light, const LightPlan& plan, Draw draw, const char* name, Compare pass, const gl::StencilFace& front,
-              const gl::StencilFace& back) {
+  void volume(int light, const LightPlan& plan, int group, Draw draw, const char* name, Compare pass,
+              const gl::StencilFace& front, const gl::StencilFace& back) {
     const gl::Rect area = gl::intersect(plan.volumeArea, plan.litArea);
     if (area.empty()) return;
     PassStep s = step(name, "volumes", stencilTarget());
     s.light = light;
+    s.group = group;
     s.shader = Shader::volume;
     s.draw = draw;
     s.state.depth = {.test = true, .pass = pass, .write = false, .clamp = true};
-    s.state.stencil = {.test = true, .compare = Compare::always, .reference = 0, .front = front, .back = back};
+    s.state.stencil = {.test = true, .compare = Compare::always, .front = front, .back = back};
+    if (plan.groups.size() > 1) s.state.stencil.writeMask = kCountBits;
     if (area != placement.viewport) s.state.scissor = area;
     list.steps.push_back(s);
   }
 
-  void volumes(int light, const LightPlan& plan) {
+  void volumes(int light, const LightPlan& plan, int group) {
+    const GroupPlan& parts = plan.groups[static_cast<std::size_t>(group)];
     const gl::StencilFace failUp{.depthFail = StencilOp::increment}, failDown{.depthFail = StencilOp::decrement};
     const gl::StencilFace passUp{.pass = StencilOp::increment}, passDown{.pass = StencilOp::decrement};
-    if (plan.passSides) volume(light, plan, Draw::passSides, "sides", nearer(reversed), passUp, passDown);
-    if (plan.failSides) volume(light, plan, Draw::failSides, "sides", nearer(reversed), failDown, failUp);
+    if (parts.passSides) volume(light, plan, group, Draw::passSides, "sides", nearer(reversed), passUp, passDown);
+    if (parts.failSides) volume(light, plan, group, Draw::failSides, "sides", nearer(reversed), failDown, failUp);
     // Near caps lie on the casters and far caps at infinity: none is nearer than the picture, so all fail, without a
     // comparison that could fight with the surfaces they lie on.
     const Compare capsPass = plan.compareCaps ? nearer(reversed) : Compare::never;
-    if (plan.failCaps) volume(light, plan, Draw::failCaps, "caps", capsPass, failDown, failUp);
+    if (parts.failCaps) volume(light, plan, group, Draw::failCaps, "caps", capsPass, failDown, failUp);
+  }
+
+  void keepShadow(int light, const LightPlan& plan) {
+    PassStep s = screen("keep the shadow", "volumes", stencilTarget(), Shader::keepShadow);
+    s.light = light;
+    s.state.colourWrite = false;
+    const gl::StencilFace keep{.pass = StencilOp::replace};
+    s.state.stencil = {.test = true, .compare = Compare::notEqual, .reference = kKeepBit, .readMask = kCountBits,
+                       .front = keep, .back = keep};
+    if (plan.litArea != placement.viewport) s.state.scissor = plan.litArea;
+    list.steps.push_back(s);
+  }
+
+  void count(int light, const LightPlan& plan) {
+    const int groups = static_cast<int>(plan.groups.size());
+    for (int g = 0; g < groups; ++g) {
+      startCount(light, plan, g);
+      volumes(light, plan, g);
+      if (g + 1 < groups) keepShadow(light, plan);
+    }
   }
 
   PassStep screen(std::string name, std::string phase, Target target, Shader shader) const {
@@ -137,10 +166,7 @@ PassList planPasses(const gl::PassState& placement, bool reversed, const std::ve
   if (product == Product::picture) planner.ambient();
   for (int i = 0; i < static_cast<int>(lights.size()); ++i) {
     const LightPlan& plan = lights[static_cast<std::size_t>(i)];
-    if (!plan.litArea.empty()) {
-      planner.startCount(i, plan);
-      planner.volumes(i, plan);
-    }
+    if (!plan.litArea.empty()) planner.count(i, plan);
     if (product == Product::masks) planner.clearMask(i);
     if (!plan.litArea.empty() && product != Product::hostStencil) planner.lit(i, plan);
   }

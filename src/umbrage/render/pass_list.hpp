@@ -11,7 +11,7 @@
 namespace umbrage::render {
 
 enum class Target { surface, stencil, mask, sum, picture, host };
-enum class Shader { none, surface, volume, lightMask, ambient, light, encode };
+enum class Shader { none, surface, volume, keepShadow, lightMask, ambient, light, encode };
 /// What is drawn: nothing, all surfaces, a part of a light's volumes, one triangle over the whole target.
 enum class Draw { nothing, surfaces, passSides, failSides, failCaps, screen };
 
@@ -23,6 +23,7 @@ struct PassStep {
   Shader shader = Shader::none;
   Draw draw = Draw::nothing;
   int light = -1;      ///< whose data it uses; -1: no light's
+  int group = 0;       ///< which group of the light's volumes it draws
   bool clearColour = false;  ///< to no triangle, or black
   std::optional<float> clearDepth;
   std::optional<std::uint8_t> clearStencil;
@@ -37,10 +38,15 @@ struct PassList {
 /// One line a pass.
 [[nodiscard]] std::string describe(const PassList& list);
 
+/// What is counted together.
+struct GroupPlan {
+  int eyeCount = 0;  ///< the stencil starts from it, wrapped into the bits that count
+  bool passSides = false, failSides = false, failCaps = false;  ///< which parts of the volumes are not empty
+};
+
 /// What the plan must know of one light.
 struct LightPlan {
-  int eyeCount = 0;  ///< the stencil starts from it modulo 256
-  bool passSides = false, failSides = false, failCaps = false;  ///< which parts of the volume are not empty
+  std::vector<GroupPlan> groups{1};  ///< several share the stencil: 7 bits count, the eighth keeps what earlier groups found
   /// Caps are compared with the depth, for casters that are not in the depth buffer themselves (drawn later, or transparent);
   /// where they are, that would make caps fight with the surfaces they lie on.
   bool compareCaps = false;

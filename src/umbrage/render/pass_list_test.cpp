@@ -16,42 +16,45 @@ gl::PassState placement() {
 }
 
 TEST(PlanPasses, ZFailForOneLight) {
-  const LightPlan light{.failSides = true, .failCaps = true, .volumeArea = {8, 4, 20, 20}, .litArea = kAll};
+  const LightPlan light{.groups = {{.failSides = true, .failCaps = true}}, .volumeArea = {8, 4, 20, 20}, .litArea = kAll};
   EXPECT_TRUE(approval::approved("passes_zfail", describe(planPasses(placement(), true, {light}, Product::masks))));
 }
 
 TEST(PlanPasses, ZPassFromInsideTwoVolumesWithOneCasterByZFail) {
-  const LightPlan light{.eyeCount = 2,
-                        .passSides = true,
-                        .failSides = true,
-                        .failCaps = true,
+  const LightPlan light{.groups = {{.eyeCount = 2, .passSides = true, .failSides = true, .failCaps = true}},
                         .volumeArea = kAll,
                         .litArea = kAll};
   EXPECT_TRUE(approval::approved("passes_zpass", describe(planPasses(placement(), true, {light}, Product::masks))));
 }
 
 TEST(PlanPasses, PictureWithASunAndASpot) {
-  const LightPlan sun{.passSides = true, .volumeArea = kAll, .litArea = kAll};
-  const LightPlan spot{.eyeCount = 1, .passSides = true, .volumeArea = kAll, .litArea = {10, 10, 8, 8}};
+  const LightPlan sun{.groups = {{.passSides = true}}, .volumeArea = kAll, .litArea = kAll};
+  const LightPlan spot{.groups = {{.eyeCount = 1, .passSides = true}}, .volumeArea = kAll, .litArea = {10, 10, 8, 8}};
   EXPECT_TRUE(approval::approved("passes_picture", describe(planPasses(placement(), true, {sun, spot}, Product::picture))));
 }
 
 TEST(PlanPasses, HostStencilWithOrdinaryDepth) {
   gl::PassState host = placement();
   host.clipDepth = gl::ClipDepth::minusOneToOne;
-  const LightPlan light{.failSides = true, .failCaps = true, .volumeArea = kAll, .litArea = kAll};
+  const LightPlan light{.groups = {{.failSides = true, .failCaps = true}}, .volumeArea = kAll, .litArea = kAll};
   EXPECT_TRUE(approval::approved("passes_host", describe(planPasses(host, false, {light}, Product::hostStencil))));
 }
 
+TEST(PlanPasses, SeveralGroupsShareTheStencil) {
+  const GroupPlan group{.eyeCount = 129, .passSides = true};
+  const LightPlan light{.groups = {group, group}, .volumeArea = kAll, .litArea = kAll};
+  EXPECT_TRUE(approval::approved("passes_groups", describe(planPasses(placement(), true, {light}, Product::hostStencil))));
+}
+
 TEST(PlanPasses, WrapsTheEyeCountIntoEightBits) {
-  const LightPlan light{.eyeCount = 257, .volumeArea = kAll, .litArea = kAll};
+  const LightPlan light{.groups = {{.eyeCount = 257}}, .volumeArea = kAll, .litArea = kAll};
   const PassList list = planPasses(placement(), true, {light}, Product::hostStencil);
   ASSERT_EQ(list.steps.size(), 1u);
   EXPECT_EQ(list.steps[0].clearStencil, 1);
 }
 
 TEST(PlanPasses, DrawsNothingForALightThatReachesNoPixel) {
-  const LightPlan light{.failSides = true, .failCaps = true, .volumeArea = kAll, .litArea = {}};
+  const LightPlan light{.groups = {{.failSides = true, .failCaps = true}}, .volumeArea = kAll, .litArea = {}};
   EXPECT_TRUE(planPasses(placement(), true, {light}, Product::hostStencil).steps.empty());
 }
 

@@ -1,34 +1,41 @@
 #include "umbrage/render/prepare_light.hpp"
 
+#include <utility>
+
+#include "umbrage/shadow/layering.hpp"
+
 namespace umbrage::render {
 namespace {
 
-IndexRange append(std::vector<std::uint32_t>& indices, const std::vector<std::uint32_t>& more) {
+IndexRange append(std::vector<std::uint32_t>& indices, std::vector<std::uint32_t>&& more) {
   const IndexRange range{indices.size(), more.size()};
-  indices.insert(indices.end(), more.begin(), more.end());
+  if (indices.empty())
+    indices = std::move(more);
+  else
+    indices.insert(indices.end(), more.begin(), more.end());
   return range;
 }
 
-void addZFail(LightVolume& out, const shadow::CasterSet& casters, const shadow::Silhouette& silhouette,
+void addZFail(LightVolume& out, VolumeGroup& group, const shadow::CasterSet& casters, const shadow::Silhouette& silhouette,
               std::span<const std::uint8_t> components) {
   shadow::ShadowVolume volume = shadow::extrude(casters, silhouette, {.caps = true, .components = components});
-  if (out.indices.empty()) {
-    out.indices = std::move(volume.sides);
-    out.failSides = {0, out.indices.size()};
-  } else {
-    out.failSides = append(out.indices, volume.sides);
-  }
-  out.failCaps = append(out.indices, volume.caps);
+  group.failSides = append(out.indices, std::move(volume.sides));
+  group.failCaps = append(out.indices, std::move(volume.caps));
 }
 
-void addZPass(LightVolume& out, const shadow::CasterSet& casters, const shadow::Silhouette& silhouette,
+void addZPass(LightVolume& out, VolumeGroup& group, const shadow::CasterSet& casters, const shadow::Silhouette& silhouette,
               const shadow::EyeCount& atEye) {
   std::vector<std::uint8_t> others;
   if (atEye.byZFailCount > 0)
     for (const std::uint8_t fallen : atEye.byZFail) others.push_back(fallen == 0 ? 1 : 0);
-  out.indices = shadow::extrude(casters, silhouette, {.caps = false, .components = others}).sides;
-  out.passSides = {0, out.indices.size()};
-  if (atEye.byZFailCount > 0) addZFail(out, casters, silhouette, atEye.byZFail);
+  group.passSides =
+      append(out.indices, shadow::extrude(casters, silhouette, {.caps = false, .components = others}).sides);
+  if (atEye.byZFailCount > 0) addZFail(out, group, casters, silhouette, atEye.byZFail);
+}
+
+shadow::LayerGroups groupsFor(const shadow::CasterSet& casters, const shadow::Silhouette& silhouette) {
+  if (shadow::layeringBound(casters, silhouette, kWholeStencil) <= kWholeStencil) return {};
+  return shadow::groupLayers(casters, silhouette, kSharedStencil);
 }
 
 }  // namespace
@@ -41,24 +48,42 @@ LightVolume prepareVolume(const shadow::CasterSet& casters, const Vec4& light, c
   LightVolume out;
   out.light = light;
   out.counting = counting;
-  const shadow::Silhouette silhouette = shadow::findSilhouette(casters, light);
-  shadow::EyeCount atEye;
-  if (counting == Counting::zPass) atEye = shadow::countAtEye(casters, silhouette, eye);
+  const shadow::Silhouette whole = shadow::findSilhouette(casters, light);
   end("silhouette");
-  if (counting == Counting::zPass)
-    addZPass(out, casters, silhouette, atEye);
-  else
-    addZFail(out, casters, silhouette, {});
-  end("extrude");
-
-  out.eyeCount = atEye.count;
+  const shadow::LayerGroups groups = groupsFor(casters, whole);
+  end("layers");
+  for (int g = 0; g < groups.count; ++g) {
+    const shadow::Silhouette part = groups.count > 1 ? shadow::restrictTo(casters, whole, groups, g) : shadow::Silhouette{};
+    const shadow::Silhouette& silhouette = groups.count > 1 ? part : whole;
+    VolumeGroup group;
+    if (counting == Counting::zPass) {
+      const shadow::EyeCount atEye = shadow::countAtEye(casters, silhouette, eye);
+      end("silhouette");
+      addZPass(out, group, casters, silhouette, atEye);
+      group.eyeCount = atEye.count;
+      stats.castersByZFail += atEye.byZFailCount;
+      stats.eyeCount += atEye.count;
+    } else {
+      addZFail(out, group, casters, silhouette, {});
+    }
+    end("extrude");
+    out.groups.push_back(group);
+  }
   stats.method = counting == Counting::zPass ? "zpass" : "zfail";
-  stats.edgesTested = silhouette.edgesTested;
-  stats.silhouetteEdges = silhouette.edges.size();
+  stats.edgesTested = whole.edgesTested;
+  stats.silhouetteEdges = whole.edges.size();
   stats.volumeTriangles = out.indices.size() / 3;
-  stats.castersByZFail = atEye.byZFailCount;
-  stats.eyeCount = atEye.count;
   return out;
+}
+
+std::vector<GroupPlan> planGroups(const LightVolume& volume) {
+  std::vector<GroupPlan> plans;
+  for (const VolumeGroup& group : volume.groups)
+    plans.push_back({.eyeCount = group.eyeCount,
+                     .passSides = group.passSides.count > 0,
+                     .failSides = group.failSides.count > 0,
+                     .failCaps = group.failCaps.count > 0});
+  return plans;
 }
 
 }  // namespace umbrage::render

@@ -22,6 +22,7 @@ gl::Program compile(Shader shader) {
     case Shader::none: break;
     case Shader::surface: return {kSurfaceVert, kSurfaceFrag};
     case Shader::volume: return {kVolumeVert, kVolumeFrag};
+    case Shader::keepShadow: return {kScreenVert, kVolumeFrag};
     case Shader::lightMask: return {kScreenVert, kLightMaskFrag};
     case Shader::ambient: return {kScreenVert, kAmbientFrag};
     case Shader::light: return {kScreenVert, kLightFrag};
@@ -70,15 +71,16 @@ void draw(gl::Pass& pass, const PassStep& step, const RunInput& input, const Gpu
   pass.uniforms(0, light != nullptr ? light->view : *input.view);
   pass.storage(0, input.positions);
   const auto volume = [&](const IndexRange& range) { pass.drawIndexed(light->vertices, range.first, range.count); };
+  const auto group = static_cast<std::size_t>(step.group);
   switch (step.draw) {
     case Draw::nothing: break;
     case Draw::surfaces: pass.drawIndexed(input.scene->vertices(), 0, input.scene->indexCount()); break;
-    case Draw::passSides: volume(light->passSides); break;
-    case Draw::failSides: volume(light->failSides); break;
-    case Draw::failCaps: volume(light->failCaps); break;
+    case Draw::passSides: volume(light->groups[group].passSides); break;
+    case Draw::failSides: volume(light->groups[group].failSides); break;
+    case Draw::failCaps: volume(light->groups[group].failCaps); break;
     case Draw::screen:
-      bindScreenInputs(pass, step, input, light);
-      pass.draw(input.scene->vertices(), 3);
+      if (step.shader != Shader::keepShadow) bindScreenInputs(pass, step, input, light);
+      pass.draw(light != nullptr ? light->vertices : input.scene->vertices(), 3);
       break;
   }
 }

@@ -27,7 +27,7 @@ class Programs {
 struct GpuLight {
   gl::Buffer view, shading, facing, volume;
   gl::VertexArray vertices{volume};
-  IndexRange passSides, failSides, failCaps;
+  std::vector<VolumeGroup> groups;
 };
 
 /// What the steps of a PassList refer to. Pointers may be null where no step needs them.

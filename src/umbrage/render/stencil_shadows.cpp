@@ -35,14 +35,9 @@ Result<shadow::LightStats> StencilShadows::mark(const scene::Light& light, const
   GpuLight& gpu = light_.front();
   for (const auto& done : {gpu.view.setOne(viewBlock(view, casters_.origin, homogeneous)), gpu.volume.setAll(volume.indices)})
     if (!done) return tl::unexpected(done.error());
-  gpu.passSides = volume.passSides;
-  gpu.failSides = volume.failSides;
-  gpu.failCaps = volume.failCaps;
+  gpu.groups = volume.groups;
 
-  const LightPlan plan{.eyeCount = volume.eyeCount,
-                       .passSides = volume.passSides.count > 0,
-                       .failSides = volume.failSides.count > 0,
-                       .failCaps = volume.failCaps.count > 0,
+  const LightPlan plan{.groups = planGroups(volume),
                        .compareCaps = !options.castersInDepth,
                        .volumeArea = volumeArea(view, casters_.bounds, homogeneous, casters_.origin, placement),
                        .litArea = litArea(view, light, placement)};

@@ -177,17 +177,12 @@ class StencilTechnique final : public GlTechnique {
     for (const auto& done : {gpu.view.setOne(viewData), gpu.shading.setOne(shading),
                              gpu.facing.setAll(facing), gpu.volume.setAll(volume.indices)})
       if (!done) return tl::unexpected(done.error());
-    gpu.passSides = volume.passSides;
-    gpu.failSides = volume.failSides;
-    gpu.failCaps = volume.failCaps;
+    gpu.groups = volume.groups;
     if (ended) {
       gl::finish();
       ended("upload");
     }
-    return LightPlan{.eyeCount = volume.eyeCount,
-                     .passSides = volume.passSides.count > 0,
-                     .failSides = volume.failSides.count > 0,
-                     .failCaps = volume.failCaps.count > 0,
+    return LightPlan{.groups = planGroups(volume),
                      .volumeArea = volumeArea(view, casters.bounds, homogeneous, origin, placement),
                      .litArea = litArea(view, light, placement)};
   }

@@ -286,7 +286,37 @@ TEST_P(StencilTechniques, TellWhatTheyDid) {
   EXPECT_GT(stats.lights[0].volumeTriangles, 0u);
   std::vector<std::string> names;
   for (const auto& phase : stats.phases) names.push_back(phase.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"silhouette", "extrude", "facing", "upload", "depth", "volumes", "lit", "readback"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"silhouette", "layers", "extrude", "facing", "upload", "depth", "volumes",
+                                             "lit", "readback"}));
+}
+
+// 256 sheets between the sun and the ground: what 8 bits count as 0.
+TEST_P(StencilTechniques, CountMoreLayersThanTheStencilHolds) {
+  for (const int layers : {255, 256, 512}) {
+    auto sheet = std::make_shared<mesh::Mesh>();
+    sheet->positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    sheet->triangles = {{0, 1, 2}, {0, 2, 3}};
+    scene::Scene stack;
+    stack.materials = {{}};
+    stack.meshes = {sheet};
+    for (int i = 0; i < layers; ++i) {
+      Mat4 raised(1.0);
+      raised[3][2] = 1.0 + 0.01 * i;
+      stack.instances.push_back({"sheet", 0, raised});
+    }
+    ASSERT_TRUE(technique_->prepare(shadow::makeGeometry(scene::withGround(stack, 0.0))));
+    const scene::Light sun{scene::DirectionalLight{{0.001, 0.002, -1.0}}};
+    const scene::Light lamp{scene::PointLight{{0.1, 0.2, 90.0}}};
+    scene::Camera camera;
+    camera.eye = {9, 1, 0.8};
+    camera.target = {0, 0, 0};
+    camera.fovY = Angle::degrees(20);
+    camera.width = camera.height = 33;
+    const std::array lights{sun, lamp};
+    const auto shading = technique_->shade({camera, lights});
+    ASSERT_TRUE(shading);
+    for (const auto& mask : shading->masks) EXPECT_EQ(mask.light(16, 16), 0) << layers;
+  }
 }
 
 TEST_P(StencilTechniques, SurviveEmptyScenesAndOddSizes) {
