@@ -1,0 +1,49 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "umbrage/base/angle.hpp"
+#include "umbrage/base/error.hpp"
+#include "umbrage/scene/scene.hpp"
+
+namespace umbrage::io {
+
+/// What the caller knows better than the file, and what reading may cost.
+struct LoadOptions {
+  std::optional<scene::UpAxis> up;      ///< instead of the format's own
+  std::optional<double> metresPerUnit;  ///< instead of the format's own; positive and finite
+  std::optional<Angle> north;           ///< true north lies this much clockwise of the frame's north
+  std::optional<std::string> lod;       ///< CityJSON: this level of detail instead of each object's highest
+  std::chrono::milliseconds timeLimit{9000};               ///< wall clock for the whole call
+  std::size_t memoryLimit = std::size_t{1800} << 20;       ///< bytes of address space for the parsers
+};
+
+/// More triangles than this, all instances counted, are refused as too large.
+inline constexpr std::size_t kMaxTriangles = 20'000'000;
+inline constexpr std::size_t kMaxInstances = 1'000'000;
+
+/// Reads a scene file: glTF 2.0 (.gltf .glb), Wavefront .obj, .ply, .stl, .off, .3ds, .ifc, .x3d, Open Inventor .iv, VRML .wrl,
+/// CityJSON (.json) and CityJSONSeq (.jsonl). Coordinates and units stay the file's own.
+///
+/// 1. The file is parsed in a process of its own, `umbrage-reader`, with limits on time, memory and size: whatever the file
+///    does to the parser becomes an Error here. The scene has no fault (scene::findFault).
+/// 2. A partly readable file gives what could be read, and Scene::warnings counts the rest. A readable file without triangles
+///    gives an empty scene and a warning.
+/// 3. Triangles of a closed surface stay edge-closed: no vertex is moved, joined within a tolerance or invented.
+/// 4. Colours of .obj, .3ds, .iv, .wrl and CityJSON materials are taken as sRGB and made linear; those of glTF are linear.
+/// 5. May be called from several threads at once.
+/// The reader is looked for at $UMBRAGE_READER, then beside the running program, then where this library was installed or built.
+/// Errors: input (missing, broken, hostile, too large, too slow), unsupported (unknown format or feature), usage (options).
+/// CAVEAT: .obj .ply .stl .off .3ds .ifc .x3d .iv .wrl are read in single precision by the libraries behind them.
+[[nodiscard]] Result<scene::Scene> loadScene(const std::filesystem::path& path, const LoadOptions& options = {});
+
+/// The extensions that loadScene knows, lower case, without the dot.
+[[nodiscard]] std::span<const std::string_view> readableExtensions();
+
+}  // namespace umbrage::io

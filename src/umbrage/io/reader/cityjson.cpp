@@ -1,0 +1,287 @@
+// CityJSON 1.0 to 2.0 and CityJSONSeq. Coordinates are vertex * scale + translate in double precision, up is Z, the unit is the
+// metre as the specification demands.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "umbrage/io/reader/city_mesh.hpp"
+#include "umbrage/io/reader/files.hpp"
+#include "umbrage/io/reader/json_access.hpp"
+#include "umbrage/io/reader/read.hpp"
+#include "umbrage/io/reader/tidy.hpp"
+
+namespace umbrage::io::reader {
+namespace {
+
+constexpr std::size_t kMaxHierarchy = 16;
+
+struct Transform {
+  Vec3 scale{1.0}, translate{0.0};
+};
+
+Transform transformOf(const Json& document) {
+  const Json& transform = member(document, "transform");
+  return {vectorOf(member(transform, "scale")).value_or(Vec3(1.0)),
+          vectorOf(member(transform, "translate")).value_or(Vec3(0.0))};
+}
+
+// A vertex that is not three numbers keeps its place in the count, as not a number: what uses it is dropped and counted.
+std::vector<Vec3> verticesOf(const Json& list, const Transform& transform) {
+  std::vector<Vec3> vertices;
+  if (!list.is_array()) return vertices;
+  vertices.reserve(list.size());
+  for (const Json& entry : list)
+    vertices.push_back(vectorOf(entry).value_or(Vec3(std::numeric_limits<double>::quiet_NaN())) * transform.scale +
+                       transform.translate);
+  return vertices;
+}
+
+// "EPSG:7415" from "urn:ogc:def:crs:EPSG::7415" or "https://www.opengis.net/def/crs/EPSG/0/7415"; anything else as it is.
+std::string shortCrs(const std::string& crs) {
+  const auto authority = crs.find("EPSG");
+  if (authority == std::string::npos) return crs;
+  const auto code = crs.find_last_of(":/");
+  return code == std::string::npos || code < authority ? crs : "EPSG:" + crs.substr(code + 1);
+}
+
+std::string lodText(const Json& lod) {
+  if (lod.is_string()) return lod.get<std::string>();
+  return lod.is_number() ? lod.dump() : std::string();
+}
+double lodNumber(const std::string& lod) {
+  double value = -1.0;
+  std::from_chars(lod.data(), lod.data() + lod.size(), value);
+  return value;
+}
+
+Result<Json> parse(std::string_view text) {
+  if (auto fine = checkJsonDepth(text); !fine) return tl::unexpected(fine.error());
+  try {
+    return Json::parse(text);
+  } catch (const Json::exception& fault) {
+    const std::string message = fault.what();
+    const auto begin = message.find("] ");
+    return fail(ErrorCode::input, "is not valid JSON: " + (begin == std::string::npos ? message : message.substr(begin + 2)));
+  }
+}
+
+class CityReader {
+ public:
+  explicit CityReader(std::optional<std::string> lod) : lod_(std::move(lod)), materials_(scene_.materials) {}
+
+  Result<void> begin(const Json& document);
+  void addObjects(const Json& objects, const Json& vertices);
+  void countBrokenLine() { ++brokenLines_; }
+  void countLine() { ++lines_; }
+  [[nodiscard]] scene::Scene finish();
+
+ private:
+  using Chosen = std::vector<const Json*>;
+  [[nodiscard]] std::string lodOf(const Json& geometry) const;
+  [[nodiscard]] Chosen chooseGeometries(const Json& object);
+  void addObject(const std::string& path, const Json& object, const std::vector<Vec3>& vertices);
+  void addInstance(const std::string& path, const Json& geometry, const std::vector<Vec3>& vertices);
+  [[nodiscard]] std::optional<std::uint32_t> templateMesh(std::size_t index);
+
+  std::optional<std::string> lod_;
+  scene::Scene scene_;
+  CityMaterials materials_;
+  Transform transform_;
+  Json templates_;
+  std::vector<Vec3> templateVertices_;
+  std::map<std::size_t, std::uint32_t> templateMeshes_;
+  SurfaceCounts counts_;
+  std::set<std::string> lodsSeen_;
+  std::size_t objectsWithoutLod_ = 0, objectsMalformed_ = 0, instancesDropped_ = 0, lines_ = 0, brokenLines_ = 0;
+};
+
+Result<void> CityReader::begin(const Json& document) {
+  const std::string type = textOf(member(document, "type"));
+  if (type == "FeatureCollection" || type == "Feature")
+    return fail(ErrorCode::unsupported, "is GeoJSON, which is not read as a scene");
+  if (type != "CityJSON") return fail(ErrorCode::input, "is not CityJSON: its \"type\" is not \"CityJSON\"");
+  scene_.up = scene::UpAxis::z;
+  scene_.crs = shortCrs(textOf(member(member(document, "metadata"), "referenceSystem")));
+  transform_ = transformOf(document);
+  materials_.addAppearance(document);
+  const Json& templates = member(document, "geometry-templates");
+  templates_ = member(templates, "templates");
+  templateVertices_ = verticesOf(member(templates, "vertices-templates"), {});
+  return {};
+}
+
+// The parents' names, outermost first. Parents that lead back to where one came from end the path.
+std::string pathOf(const Json& objects, const std::string& id) {
+  std::vector<std::string> names = {id};
+  while (names.size() < kMaxHierarchy) {
+    const std::string parent = textOf(element(member(member(objects, names.back().c_str()), "parents"), 0));
+    if (parent.empty() || std::find(names.begin(), names.end(), parent) != names.end()) break;
+    names.push_back(parent);
+  }
+  std::string path;
+  for (auto name = names.rbegin(); name != names.rend(); ++name) path = childPath(path, *name);
+  return path;
+}
+
+void CityReader::addObjects(const Json& objects, const Json& vertexList) {
+  if (!objects.is_object()) return;
+  const std::vector<Vec3> vertices = verticesOf(vertexList, transform_);
+  for (const auto& [id, object] : objects.items()) addObject(pathOf(objects, id), object, vertices);
+}
+
+std::string CityReader::lodOf(const Json& geometry) const {
+  if (const auto index = indexOf(member(geometry, "template"))) return lodText(member(element(templates_, *index), "lod"));
+  return lodText(member(geometry, "lod"));
+}
+
+// All geometries of the level of detail asked for, or of the object's highest.
+CityReader::Chosen CityReader::chooseGeometries(const Json& object) {
+  Chosen all;
+  double best = -1.0;
+  for (const Json& geometry : member(object, "geometry")) {
+    all.push_back(&geometry);
+    lodsSeen_.insert(lodOf(geometry));
+    best = std::max(best, lodNumber(lodOf(geometry)));
+  }
+  const double wanted = lod_ ? lodNumber(*lod_) : best;
+  Chosen chosen;
+  for (const Json* geometry : all) {
+    const std::string lod = lodOf(*geometry);
+    if ((lod_ && lod == *lod_) || lodNumber(lod) == wanted) chosen.push_back(geometry);
+  }
+  if (!all.empty() && chosen.empty()) ++objectsWithoutLod_;
+  return chosen;
+}
+
+void CityReader::addObject(const std::string& path, const Json& object, const std::vector<Vec3>& vertices) {
+  if (!object.is_object()) {
+    ++objectsMalformed_;
+    return;
+  }
+  const std::string type = textOf(member(object, "type"));
+  CityMesh builder(vertices, materials_, counts_);
+  for (const Json* geometry : chooseGeometries(object)) {
+    if (textOf(member(*geometry, "type")) == "GeometryInstance")
+      addInstance(path, *geometry, vertices);
+    else
+      builder.add(*geometry, type);
+  }
+  mesh::Mesh m = builder.take();
+  if (m.triangles.empty()) return;
+  m.name = path;
+  scene_.instances.push_back({path, static_cast<std::uint32_t>(scene_.meshes.size()), Mat4(1.0), true});
+  scene_.meshes.push_back(std::make_shared<const mesh::Mesh>(std::move(m)));
+}
+
+// The specification's matrix is row by row, relative to the reference point.
+std::optional<Mat4> placement(const Json& geometry, const std::vector<Vec3>& vertices) {
+  const Json& numbers = member(geometry, "transformationMatrix");
+  const auto anchor = indexOf(element(member(geometry, "boundaries"), 0));
+  if (!numbers.is_array() || numbers.size() != 16 || !anchor || *anchor >= vertices.size()) return std::nullopt;
+  Mat4 m;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column) {
+      const auto value = numberOf(numbers[static_cast<std::size_t>(4 * row + column)]);
+      if (!value) return std::nullopt;
+      m[column][row] = *value;
+    }
+  m[3] += Vec4(vertices[*anchor], 0.0);
+  return m;
+}
+
+void CityReader::addInstance(const std::string& path, const Json& geometry, const std::vector<Vec3>& vertices) {
+  const auto index = indexOf(member(geometry, "template"));
+  const auto mesh = index ? templateMesh(*index) : std::nullopt;
+  const auto where = placement(geometry, vertices);
+  if (!mesh || !where) {
+    ++instancesDropped_;
+    return;
+  }
+  scene_.instances.push_back({path, *mesh, *where, true});
+}
+
+std::optional<std::uint32_t> CityReader::templateMesh(std::size_t index) {
+  if (const auto known = templateMeshes_.find(index); known != templateMeshes_.end()) return known->second;
+  const Json& geometry = element(templates_, index);
+  if (!geometry.is_object()) return std::nullopt;
+  CityMesh builder(templateVertices_, materials_, counts_);
+  builder.add(geometry, "template");
+  mesh::Mesh m = builder.take();
+  m.name = "template " + std::to_string(index);
+  const auto mesh = static_cast<std::uint32_t>(scene_.meshes.size());
+  scene_.meshes.push_back(std::make_shared<const mesh::Mesh>(std::move(m)));
+  templateMeshes_[index] = mesh;
+  return mesh;
+}
+
+scene::Scene CityReader::finish() {
+  auto& warnings = scene_.warnings;
+  const std::string of = " of " + counted(counts_.seen, "surface") + " dropped: ";
+  const auto surfaces = [&](std::size_t count, const char* why) {
+    if (count > 0) warnings.push_back(std::to_string(count) + of + why);
+  };
+  surfaces(counts_.malformed, "not rings of vertex indices");
+  surfaces(counts_.outOfRange, "vertices that do not exist or are not finite");
+  surfaces(counts_.degenerate, "fewer than three different corners");
+  if (instancesDropped_ > 0)
+    warnings.push_back(counted(instancesDropped_, "template instance") + " dropped: no such template or placement");
+  if (objectsMalformed_ > 0) warnings.push_back(counted(objectsMalformed_, "city object") + " dropped: not an object");
+  if (brokenLines_ > 0) warnings.push_back(std::to_string(brokenLines_) + " of " + counted(lines_, "line") + " dropped: not a CityJSONFeature");
+  if (objectsWithoutLod_ > 0) {
+    std::string levels;
+    for (const std::string& lod : lodsSeen_) levels += (levels.empty() ? "" : ", ") + lod;
+    warnings.push_back(counted(objectsWithoutLod_, "city object") + " left out: not in LoD " + lod_.value_or("") +
+                       " (the file has " + levels + ")");
+  }
+  return std::move(scene_);
+}
+
+// A line of a sequence is worth a warning when it is broken, not the loss of the others.
+void addFeature(CityReader& reader, std::string_view line) {
+  reader.countLine();
+  const auto feature = parse(line);
+  if (!feature || textOf(member(*feature, "type")) != "CityJSONFeature" || !member(*feature, "CityObjects").is_object())
+    return reader.countBrokenLine();
+  reader.addObjects(member(*feature, "CityObjects"), member(*feature, "vertices"));
+}
+
+std::string_view nextLine(std::string_view& text) {
+  const auto end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
+
+bool isBlank(std::string_view line) { return line.find_first_not_of(" \t\r") == std::string_view::npos; }
+
+}  // namespace
+
+Result<scene::Scene> readCityJson(const Request& request) {
+  auto bytes = readJsonBytes(request.file);
+  if (!bytes) return tl::unexpected(bytes.error());
+  auto document = parse(asText(*bytes));
+  if (!document) return tl::unexpected(document.error());
+  *bytes = {};
+  CityReader reader(request.lod);
+  if (auto begun = reader.begin(*document); !begun) return tl::unexpected(begun.error());
+  reader.addObjects(member(*document, "CityObjects"), member(*document, "vertices"));
+  return reader.finish();
+}
+
+Result<scene::Scene> readCityJsonSeq(const Request& request) {
+  const auto bytes = readJsonBytes(request.file);
+  if (!bytes) return tl::unexpected(bytes.error());
+  std::string_view text = asText(*bytes);
+  auto header = parse(nextLine(text));
+  if (!header) return tl::unexpected(header.error());
+  CityReader reader(request.lod);
+  if (auto begun = reader.begin(*header); !begun) return tl::unexpected(begun.error());
+  reader.addObjects(member(*header, "CityObjects"), member(*header, "vertices"));
+  while (!text.empty())
+    if (const std::string_view line = nextLine(text); !isBlank(line)) addFeature(reader, line);
+  return reader.finish();
+}
+
+}  // namespace umbrage::io::reader

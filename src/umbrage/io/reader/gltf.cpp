@@ -1,0 +1,297 @@
+// glTF 2.0, text and binary, through tinygltf. Textures, cameras, lights, skins, morphing and animation are not read.
+#include <algorithm>
+#include <array>
+#include <glm/gtc/quaternion.hpp>
+#include <map>
+#include <set>
+#include <string_view>
+
+#include "umbrage/base/file.hpp"
+#include "umbrage/io/reader/files.hpp"
+#include "umbrage/io/reader/gltf_accessor.hpp"
+#include "umbrage/io/reader/read.hpp"
+#include "umbrage/io/reader/tidy.hpp"
+
+namespace umbrage::io::reader {
+namespace {
+
+// What a file may demand: these change the look of textures and reflections, or are read here.
+constexpr std::array<std::string_view, 8> kHarmless = {
+    "KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu", "EXT_texture_webp", "MSFT_texture_dds",
+    "KHR_lights_punctual",   "KHR_xmp_json_ld",       "KHR_animation_pointer"};
+constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
+constexpr std::string_view kInstancing = "EXT_mesh_gpu_instancing";
+
+bool isHarmless(std::string_view extension) {
+  return extension.starts_with("KHR_materials_") ||
+         std::find(kHarmless.begin(), kHarmless.end(), extension) != kHarmless.end();
+}
+
+bool isCompression(std::string_view extension) {
+  return extension == kDraco || extension == "EXT_meshopt_compression";
+}
+
+bool skipImage(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
+  return true;
+}
+
+bool existsInside(const std::string& path, void* folder) {
+  return isInside(*static_cast<const std::filesystem::path*>(folder), path);
+}
+
+bool readInside(std::vector<unsigned char>* out, std::string* error, const std::string& path, void* folder) {
+  if (!existsInside(path, folder)) {
+    *error = "lies outside the folder of the scene";
+    return false;
+  }
+  const auto bytes = readFile(path, kMaxFileBytes);
+  if (!bytes) {
+    *error = bytes.error().message;
+    return false;
+  }
+  const auto* begin = reinterpret_cast<const unsigned char*>(bytes->data());
+  out->assign(begin, begin + bytes->size());
+  return true;
+}
+
+bool refuseToWrite(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
+
+bool isBinary(const std::vector<std::byte>& bytes) { return asText(bytes).starts_with("glTF"); }
+
+// The JSON of either kind of file; for a binary one that lies about its sizes, as much as there is.
+std::string_view jsonOf(const std::vector<std::byte>& bytes) {
+  const std::string_view all = asText(bytes);
+  return isBinary(bytes) ? all.substr(std::min<std::size_t>(20, all.size())) : all;
+}
+
+std::string firstLine(const std::string& text) {
+  const auto begin = text.find_first_not_of(" \n");
+  const std::string line = begin == std::string::npos ? "" : text.substr(begin, text.find('\n', begin) - begin);
+  const auto tag = line.starts_with("[json.") ? line.find("] ") : std::string::npos;
+  return tag == std::string::npos ? line : line.substr(tag + 2);
+}
+
+Result<tinygltf::Model> parse(const Request& request) {
+  const auto bytes = readJsonBytes(request.file);
+  if (!bytes) return tl::unexpected(bytes.error());
+  const bool binary = isBinary(*bytes);
+  if (!binary)
+    if (auto fine = checkJsonDepth(jsonOf(*bytes)); !fine) return tl::unexpected(fine.error());
+  auto folder = request.file.parent_path();
+  tinygltf::TinyGLTF loader;
+  loader.SetImageLoader(skipImage, nullptr);
+  loader.SetFsCallbacks({existsInside, tinygltf::ExpandFilePath, readInside, refuseToWrite, &folder});
+  tinygltf::Model model;
+  std::string errors, warnings;
+  const auto size = static_cast<unsigned>(bytes->size());
+  const bool parsed =
+      binary ? loader.LoadBinaryFromMemory(&model, &errors, &warnings, reinterpret_cast<const unsigned char*>(bytes->data()),
+                                           size, folder.string())
+             : loader.LoadASCIIFromString(&model, &errors, &warnings, reinterpret_cast<const char*>(bytes->data()), size,
+                                          folder.string());
+  // Before the errors: a file that demands what is not known here may well look broken.
+  for (const std::string& extension : model.extensionsRequired)
+    if (!isHarmless(extension)) return fail(ErrorCode::unsupported, "needs the glTF extension " + extension);
+  if (!model.asset.version.empty() && !model.asset.version.starts_with("2"))
+    return fail(ErrorCode::unsupported, "is glTF " + model.asset.version + "; only glTF 2.0 is read");
+  if (!parsed)
+    for (const std::string& extension : model.extensionsUsed)
+      if (isCompression(extension)) return fail(ErrorCode::unsupported, "needs the glTF extension " + extension);
+  if (!parsed) return fail(ErrorCode::input, "is not valid glTF: " + firstLine(errors));
+  return model;
+}
+
+scene::Material materialOf(const tinygltf::Material& given, std::size_t index) {
+  scene::Material m;
+  m.name = given.name.empty() ? "material " + std::to_string(index) : given.name;
+  const auto& factor = given.pbrMetallicRoughness.baseColorFactor;
+  if (factor.size() != 4) return m;
+  m.colour = {factor[0], factor[1], factor[2]};
+  if (given.alphaMode == "BLEND") m.opacity = factor[3];
+  if (given.alphaMode == "MASK") m.opacity = factor[3] >= given.alphaCutoff ? 1.0 : 0.0;
+  return m;
+}
+
+void addStrip(const std::vector<std::uint32_t>& v, std::vector<mesh::Triangle>& out) {
+  for (std::size_t i = 0; i + 2 < v.size(); ++i) out.push_back({v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]});
+}
+void addFan(const std::vector<std::uint32_t>& v, std::vector<mesh::Triangle>& out) {
+  for (std::size_t i = 1; i + 1 < v.size(); ++i) out.push_back({v[i], v[i + 1], v[0]});
+}
+void addList(const std::vector<std::uint32_t>& v, std::vector<mesh::Triangle>& out) {
+  for (std::size_t i = 0; i + 2 < v.size(); i += 3) out.push_back({v[i], v[i + 1], v[i + 2]});
+}
+
+std::vector<mesh::Triangle> assemble(int mode, const std::vector<std::uint32_t>& corners) {
+  std::vector<mesh::Triangle> triangles;
+  if (mode == TINYGLTF_MODE_TRIANGLES || mode < 0) addList(corners, triangles);
+  if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) addStrip(corners, triangles);
+  if (mode == TINYGLTF_MODE_TRIANGLE_FAN) addFan(corners, triangles);
+  return triangles;
+}
+
+class GltfReader {
+ public:
+  explicit GltfReader(const tinygltf::Model& model) : model_(model) {}
+  Result<scene::Scene> read();
+
+ private:
+  struct Visit {
+    int node;
+    Mat4 toWorld;
+    std::string path;
+  };
+  [[nodiscard]] std::vector<int> roots() const;
+  Result<void> walk();
+  Result<void> enter(const Visit& visit, std::vector<Visit>& stack);
+  Result<std::uint32_t> meshOf(int index);
+  Result<void> addPrimitive(const tinygltf::Primitive& primitive, mesh::Mesh& m);
+  void noteUnread();
+
+  const tinygltf::Model& model_;
+  scene::Scene scene_;
+  std::vector<bool> visited_;
+  std::map<int, std::uint32_t> meshes_;
+  Complaints complaints_;
+};
+
+Result<scene::Scene> GltfReader::read() {
+  scene_.up = scene::UpAxis::y;
+  for (std::size_t i = 0; i < model_.materials.size(); ++i) scene_.materials.push_back(materialOf(model_.materials[i], i));
+  scene_.materials.push_back({"default", Vec3(0.8), 1.0});
+  visited_.assign(model_.nodes.size(), false);
+  if (auto walked = walk(); !walked) return tl::unexpected(walked.error());
+  noteUnread();
+  complaints_.appendTo(scene_.warnings);
+  return std::move(scene_);
+}
+
+// The default scene's, or the first's; in a file without scenes the nodes that are nobody's child.
+std::vector<int> GltfReader::roots() const {
+  if (!model_.scenes.empty()) {
+    const auto chosen = static_cast<std::size_t>(std::max(model_.defaultScene, 0));
+    return model_.scenes[chosen < model_.scenes.size() ? chosen : 0].nodes;
+  }
+  std::set<int> children;
+  for (const tinygltf::Node& node : model_.nodes) children.insert(node.children.begin(), node.children.end());
+  std::vector<int> free;
+  for (int i = 0; i < static_cast<int>(model_.nodes.size()); ++i)
+    if (!children.contains(i)) free.push_back(i);
+  return free;
+}
+
+// Without recursion: node chains of any depth are legal.
+Result<void> GltfReader::walk() {
+  std::vector<Visit> stack;
+  for (const int root : roots()) stack.push_back({root, Mat4(1.0), ""});
+  std::reverse(stack.begin(), stack.end());
+  while (!stack.empty()) {
+    const Visit visit = std::move(stack.back());
+    stack.pop_back();
+    if (auto entered = enter(visit, stack); !entered) return entered;
+  }
+  return {};
+}
+
+Mat4 transformOf(const tinygltf::Node& node) {
+  Mat4 m(1.0);
+  if (node.matrix.size() == 16) {
+    for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
+    return m;
+  }
+  if (const auto& q = node.rotation; q.size() == 4) m = glm::mat4_cast(glm::dquat(q[3], q[0], q[1], q[2]));
+  if (const auto& s = node.scale; s.size() == 3)
+    for (int k = 0; k < 3; ++k) m[k] *= s[static_cast<std::size_t>(k)];
+  if (const auto& t = node.translation; t.size() == 3) m[3] = Vec4(t[0], t[1], t[2], 1.0);
+  return m;
+}
+
+Result<void> GltfReader::enter(const Visit& visit, std::vector<Visit>& stack) {
+  if (visit.node < 0 || static_cast<std::size_t>(visit.node) >= model_.nodes.size())
+    return fail(ErrorCode::input, "a node that does not exist is referred to", "node " + std::to_string(visit.node));
+  const auto index = static_cast<std::size_t>(visit.node);
+  if (visited_[index])
+    return fail(ErrorCode::input, "the nodes are not a tree: one is reached twice", "node " + std::to_string(index));
+  visited_[index] = true;
+  const tinygltf::Node& node = model_.nodes[index];
+  const Mat4 toWorld = visit.toWorld * transformOf(node);
+  const std::string path = childPath(visit.path, node.name);
+  if (node.mesh >= 0) {
+    const auto mesh = meshOf(node.mesh);
+    if (!mesh) return tl::unexpected(mesh.error());
+    scene_.instances.push_back({node.name.empty() ? childPath(path, scene_.meshes[*mesh]->name) : path, *mesh, toWorld, true});
+    if (node.skin >= 0) complaints_.add("skins are not read: a skinned mesh is shown as it was modelled");
+    if (node.extensions.contains(std::string(kInstancing)))
+      complaints_.add(std::string(kInstancing) + " is not read: such a mesh is shown once");
+  }
+  for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) stack.push_back({*child, toWorld, path});
+  return {};
+}
+
+Result<std::uint32_t> GltfReader::meshOf(int index) {
+  if (const auto known = meshes_.find(index); known != meshes_.end()) return known->second;
+  if (static_cast<std::size_t>(index) >= model_.meshes.size())
+    return fail(ErrorCode::input, "a mesh that does not exist is referred to", "mesh " + std::to_string(index));
+  const tinygltf::Mesh& given = model_.meshes[static_cast<std::size_t>(index)];
+  mesh::Mesh m;
+  m.name = given.name.empty() ? "mesh " + std::to_string(index) : given.name;
+  for (const tinygltf::Primitive& primitive : given.primitives)
+    if (auto added = addPrimitive(primitive, m); !added)
+      return fail(added.error().code, added.error().message, "mesh " + std::to_string(index) + ", " + added.error().where);
+  const auto place = static_cast<std::uint32_t>(scene_.meshes.size());
+  scene_.meshes.push_back(std::make_shared<const mesh::Mesh>(std::move(m)));
+  return meshes_[index] = place;
+}
+
+Result<void> GltfReader::addPrimitive(const tinygltf::Primitive& primitive, mesh::Mesh& m) {
+  if (primitive.mode >= 0 && primitive.mode < TINYGLTF_MODE_TRIANGLES) return {};  // points and lines cast no shadow
+  const auto position = primitive.attributes.find("POSITION");
+  if (position == primitive.attributes.end()) {
+    complaints_.add("a mesh without positions is left out");
+    return {};
+  }
+  if (primitive.extensions.contains(std::string(kDraco)) && position->second >= 0 &&
+      static_cast<std::size_t>(position->second) < model_.accessors.size() &&
+      model_.accessors[static_cast<std::size_t>(position->second)].bufferView < 0)
+    return fail(ErrorCode::unsupported, "needs the glTF extension " + std::string(kDraco), "primitive");
+  const auto points = readPoints(model_, position->second);
+  if (!points) return tl::unexpected(points.error());
+  std::vector<std::uint32_t> corners;
+  if (primitive.indices >= 0) {
+    auto given = readIndices(model_, primitive.indices);
+    if (!given) return tl::unexpected(given.error());
+    corners = std::move(*given);
+  } else {
+    for (std::uint32_t i = 0; i < points->size(); ++i) corners.push_back(i);
+  }
+  const auto base = static_cast<std::uint32_t>(m.positions.size());
+  const auto count = static_cast<std::uint32_t>(points->size());
+  m.positions.insert(m.positions.end(), points->begin(), points->end());
+  const bool known = primitive.material >= 0 && static_cast<std::size_t>(primitive.material) < model_.materials.size();
+  const auto material = static_cast<std::uint32_t>(known ? static_cast<std::size_t>(primitive.material) : model_.materials.size());
+  for (const mesh::Triangle& t : assemble(primitive.mode, corners)) {
+    mesh::Triangle placed;
+    // A corner outside this primitive must not become one of the next.
+    for (int k = 0; k < 3; ++k) placed[k] = t[k] < count ? base + t[k] : 0xffffffffU;
+    m.triangles.push_back(placed);
+    m.materials.push_back(material);
+  }
+  return {};
+}
+
+void GltfReader::noteUnread() {
+  for (const std::string& extension : model_.extensionsUsed)
+    if (extension == "KHR_materials_transmission" || extension == "KHR_lights_punctual")
+      complaints_.add(extension + " is not read");
+  if (!model_.animations.empty()) complaints_.add("animations are not read");
+}
+
+}  // namespace
+
+Result<scene::Scene> readGltf(const Request& request) {
+  const auto model = parse(request);
+  if (!model) return tl::unexpected(model.error());
+  return GltfReader(*model).read();
+}
+
+}  // namespace umbrage::io::reader

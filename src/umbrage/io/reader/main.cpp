@@ -1,0 +1,91 @@
+// umbrage-reader FD MEMORY HANDOVER SECONDS FILE [LOD]
+//
+// Reads one scene file with parsers that may crash, hang or eat memory on a hostile one, and hands a flat scene, or the reason
+// why there is none, over through descriptor FD. The library starts it (umbrage/io/load.hpp); it is of no use by hand.
+#include <pthread.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <span>
+#include <string>
+
+#include "umbrage/io/detail/handover.hpp"
+#include "umbrage/io/reader/limits.hpp"
+#include "umbrage/io/reader/read.hpp"
+
+namespace {
+
+using umbrage::Error;
+using umbrage::ErrorCode;
+
+// Parsers recurse with the nesting of the file; a bounded stack makes too deep a file a crash here, not in the caller.
+constexpr std::size_t kStackBytes = std::size_t{256} << 20;
+
+struct Job {
+  umbrage::io::reader::Request request;
+  std::vector<std::byte> handover;
+};
+
+std::vector<std::byte> perform(const umbrage::io::reader::Request& request) {
+  using umbrage::io::detail::pack;
+  // The one place where the exceptions of all the foreign libraries arrive.
+  try {
+    const auto scene = umbrage::io::reader::read(request);
+    return scene ? pack(*scene) : pack(scene.error());
+  } catch (const std::bad_alloc&) {
+    return pack(Error{ErrorCode::input, "needs more memory than a scene is allowed", ""});
+  } catch (const std::length_error&) {
+    return pack(Error{ErrorCode::input, "needs more memory than a scene is allowed", ""});
+  } catch (const std::exception& fault) {
+    return pack(Error{ErrorCode::input, std::string("cannot be read: ") + fault.what(), ""});
+  }
+}
+
+void* run(void* argument) {
+  auto* job = static_cast<Job*>(argument);
+  job->handover = perform(job->request);
+  return nullptr;
+}
+
+bool onLargeStack(Job& job) {
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, kStackBytes);
+  pthread_t thread{};
+  if (pthread_create(&thread, &attributes, run, &job) != 0) return false;
+  pthread_join(thread, nullptr);
+  return true;
+}
+
+bool writeAll(int fd, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(fd, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 6) {
+    std::fputs("umbrage-reader is started by the umbrage library, not by hand\n", stderr);
+    return 2;
+  }
+  const int fd = std::atoi(argv[1]);
+  umbrage::io::reader::confine({std::strtoull(argv[2], nullptr, 10), std::strtoull(argv[3], nullptr, 10),
+                                std::strtoull(argv[4], nullptr, 10)});
+  Job job;
+  job.request.file = argv[5];
+  if (argc > 6) job.request.lod = argv[6];
+  const bool done = onLargeStack(job) && writeAll(fd, job.handover);
+  // The libraries' own tidying up at exit is one more place to crash in, and the system tidies up anyway.
+  std::fflush(nullptr);
+  ::_exit(done ? 0 : 1);
+}

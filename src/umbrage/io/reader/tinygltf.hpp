@@ -1,0 +1,10 @@
+#pragma once
+
+// tinygltf without its picture decoders: pictures do not matter here, and the less code meets a hostile file the better. It is
+// compiled into the reader (tinygltf_implementation.cpp) because Debian's shared library is built with decoders, which every
+// class of the header then refers to. Include this, never tiny_gltf.h itself.
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_EXTERNAL_IMAGE
+#define TINYGLTF_NO_INCLUDE_JSON
+#include <tiny_gltf.h>
