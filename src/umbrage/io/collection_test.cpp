@@ -31,7 +31,8 @@ std::optional<Entry> parse(const std::string& line) {
   std::vector<std::string> cells;
   std::istringstream in(line);
   for (std::string cell; std::getline(in, cell, '|');) cells.push_back(trimmed(cell));
-  if (cells.size() < 6 || cells[4].empty() || cells[4].find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
+  if (cells.size() < 6 || cells[4].empty() || cells[4].find_first_not_of("0123456789") != std::string::npos)
+    return std::nullopt;
   Entry entry;
   entry.file = cells[1];
   entry.triangles = std::stoul(cells[4]);
@@ -60,11 +61,17 @@ bool agree(const mesh::MeshReport& report, const Entry& entry) {
 
 // Where the manifest's reader placed many parts by matrices in single precision, which of their points coincide is a matter of
 // its rounding; where coplanar polygons lie on each other, whether edges coincide is a matter of the diagonals chosen.
-const std::set<std::string> kRoundedOtherwise = {
-    "architecture/AC14-FZK-Haus.glb",        "architecture/AC14-FZK-Haus.ifc",          "city/3-20-DELFSHAVEN.city.json",
-    "gltf/2CylinderEngine.glb",              "inventor/castle/castle_with_trees.wrl",   "inventor/castle/office_stripped.wrl",
-    "inventor/castle/vrml_2_castle.wrl",     "inventor/coin/oiv_compliance/antisquish.iv", "inventor/sgi/bird.iv",
-    "inventor/sgi/machines/lathe.iv",        "inventor/sgi/scenes/stagedancers.iv"};
+const std::set<std::string> kRoundedOtherwise = {"architecture/AC14-FZK-Haus.glb",
+                                                 "architecture/AC14-FZK-Haus.ifc",
+                                                 "city/3-20-DELFSHAVEN.city.json",
+                                                 "gltf/2CylinderEngine.glb",
+                                                 "inventor/castle/castle_with_trees.wrl",
+                                                 "inventor/castle/office_stripped.wrl",
+                                                 "inventor/castle/vrml_2_castle.wrl",
+                                                 "inventor/coin/oiv_compliance/antisquish.iv",
+                                                 "inventor/sgi/bird.iv",
+                                                 "inventor/sgi/machines/lathe.iv",
+                                                 "inventor/sgi/scenes/stagedancers.iv"};
 
 void compare(const scene::Scene& scene, const Entry& entry) {
   EXPECT_LE(scene::triangleCount(scene), entry.triangles) << entry.file;

@@ -101,10 +101,14 @@ void expectInputError(const Result<scene::Scene>& scene, const std::string& part
   EXPECT_NE(scene.error().where.find("any.obj"), std::string::npos);
 }
 
-TEST(HostileReader, aborts) { expectInputError(loadWith("echo 'last words' >&2; kill -ABRT $$"), "signal 6, Aborted): last words"); }
+TEST(HostileReader, aborts) {
+  expectInputError(loadWith("echo 'last words' >&2; kill -ABRT $$"), "signal 6, Aborted): last words");
+}
 TEST(HostileReader, segfaults) { expectInputError(loadWith("kill -SEGV $$"), "signal 11"); }
 TEST(HostileReader, endsWithoutAScene) { expectInputError(loadWith("exit 0"), "not a scene"); }
-TEST(HostileReader, failsWithoutASignal) { expectInputError(loadWith("echo why; exit 7"), "status 7 and no scene: why"); }
+TEST(HostileReader, failsWithoutASignal) {
+  expectInputError(loadWith("echo why; exit 7"), "status 7 and no scene: why");
+}
 TEST(HostileReader, writesGarbage) { expectInputError(loadWith("head -c 100000 /dev/urandom >&3"), "not a scene"); }
 TEST(HostileReader, cannotRun) {
   ::setenv("UMBRAGE_READER", "/nowhere/umbrage-reader", 1);
@@ -128,7 +132,8 @@ TEST(HostileReader, leavesAHelperThatHoldsThePipeOpen) {
 }
 
 TEST(HostileReader, floodsItsOutput) {
-  const auto scene = loadWith("while :; do echo 0123456789012345678901234567890123456789; done", std::chrono::milliseconds(600));
+  const auto scene =
+      loadWith("while :; do echo 0123456789012345678901234567890123456789; done", std::chrono::milliseconds(600));
   expectInputError(scene, "takes too long");
 }
 
@@ -146,9 +151,7 @@ TEST(HostileReader, isCutShortOrClaimsTooMuch) {
                    "not a scene");
 }
 
-TEST(HostileReader, handsOverTooMuch) {
-  expectInputError(loadWith("head -c 700000000 /dev/zero >&3"), "too large");
-}
+TEST(HostileReader, handsOverTooMuch) { expectInputError(loadWith("head -c 700000000 /dev/zero >&3"), "too large"); }
 
 TEST(HostileReader, isWorkedWithFromManyThreads) {
   const test::Folder folder;

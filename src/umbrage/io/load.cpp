@@ -20,13 +20,14 @@ constexpr double kReadersShare = 0.85;
 Result<void> checkOptions(const LoadOptions& options) {
   if (options.metresPerUnit && !(*options.metresPerUnit > 0.0 && std::isfinite(*options.metresPerUnit)))
     return fail(ErrorCode::usage, "the unit must be a positive number of metres");
-  if (options.north && !std::isfinite(options.north->radians())) return fail(ErrorCode::usage, "north must be a finite angle");
+  if (options.north && !std::isfinite(options.north->radians()))
+    return fail(ErrorCode::usage, "north must be a finite angle");
   if (options.timeLimit.count() <= 0) return fail(ErrorCode::usage, "the time limit must be positive");
   return {};
 }
 
 Result<void> checkFile(const std::filesystem::path& path) {
-  struct stat status{};
+  struct stat status {};
   if (::stat(path.c_str(), &status) != 0)
     return fail(ErrorCode::input, "cannot be opened: " + std::generic_category().message(errno), path.string());
   if (!S_ISREG(status.st_mode)) return fail(ErrorCode::input, "is not a regular file", path.string());
@@ -37,7 +38,8 @@ Result<void> checkFile(const std::filesystem::path& path) {
 
 std::string listOfExtensions() {
   std::string list;
-  for (const std::string_view extension : detail::extensions()) list += (list.empty() ? "." : " .") + std::string(extension);
+  for (const std::string_view extension : detail::extensions())
+    list += (list.empty() ? "." : " .") + std::string(extension);
   return list;
 }
 
@@ -67,8 +69,8 @@ Result<scene::Scene> loadScene(const std::filesystem::path& path, const LoadOpti
   if (auto fine = checkOptions(options); !fine) return tl::unexpected(about(path, fine.error()));
   if (auto fine = checkFile(path); !fine) return tl::unexpected(fine.error());
   if (!detail::formatOf(path))
-    return fail(ErrorCode::unsupported, "is of a format that is not known by its extension; readable are " + listOfExtensions(),
-                path.string());
+    return fail(ErrorCode::unsupported,
+                "is of a format that is not known by its extension; readable are " + listOfExtensions(), path.string());
   const auto readerTime = std::chrono::duration_cast<std::chrono::milliseconds>(options.timeLimit * kReadersShare);
   const auto bytes = detail::runReader({std::filesystem::absolute(path), options.lod, readerTime, options.memoryLimit});
   if (!bytes) return tl::unexpected(about(path, bytes.error()));

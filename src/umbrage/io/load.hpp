@@ -16,12 +16,12 @@ namespace umbrage::io {
 
 /// What the caller knows better than the file, and what reading may cost.
 struct LoadOptions {
-  std::optional<scene::UpAxis> up;      ///< instead of the format's own
-  std::optional<double> metresPerUnit;  ///< instead of the format's own; positive and finite
-  std::optional<Angle> north;           ///< true north lies this much clockwise of the frame's north
-  std::optional<std::string> lod;       ///< CityJSON: this level of detail instead of each object's highest
-  std::chrono::milliseconds timeLimit{9000};               ///< wall clock for the whole call
-  std::size_t memoryLimit = std::size_t{1800} << 20;       ///< bytes of address space for the parsers
+  std::optional<scene::UpAxis> up;            ///< instead of the format's own
+  std::optional<double> metresPerUnit;        ///< instead of the format's own; positive and finite
+  std::optional<Angle> north;                 ///< true north lies this much clockwise of the frame's north
+  std::optional<std::string> lod;             ///< CityJSON: this level of detail instead of each object's highest
+  std::chrono::milliseconds timeLimit{9000};  ///< wall clock for the whole call
+  std::size_t memoryLimit = std::size_t{1800} << 20;  ///< bytes of address space for the parsers
 };
 
 /// More triangles than this, all instances counted, are refused as too large.

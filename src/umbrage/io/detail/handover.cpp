@@ -107,20 +107,15 @@ void packLight(Packer& out, const scene::Light& light) {
 scene::Light unpackLight(Unpacker& in) {
   scene::Light light;
   switch (in.value<LightKind>()) {
-    case LightKind::point:
-      light.shape = scene::PointLight{in.value<Vec3>()};
-      break;
-    case LightKind::directional:
-      light.shape = scene::DirectionalLight{in.value<Vec3>()};
-      break;
+    case LightKind::point: light.shape = scene::PointLight{in.value<Vec3>()}; break;
+    case LightKind::directional: light.shape = scene::DirectionalLight{in.value<Vec3>()}; break;
     case LightKind::spot: {
       const auto position = in.value<Vec3>();
       const auto direction = in.value<Vec3>();
       light.shape = scene::SpotLight{position, direction, Angle::radians(in.value<double>())};
       break;
     }
-    default:
-      in.fault();
+    default: in.fault();
   }
   light.colour = in.value<Vec3>();
   light.intensity = in.value<double>();
@@ -177,8 +172,8 @@ Error unpackError(Unpacker& in) {
 // Before findFault, whose own work grows with instances times points.
 std::optional<std::string> findExcess(const scene::Scene& s) {
   if (s.instances.size() > kMaxInstances)
-    return "is too large: " + std::to_string(s.instances.size()) + " instances, at most " + std::to_string(kMaxInstances) +
-           " are read";
+    return "is too large: " + std::to_string(s.instances.size()) + " instances, at most " +
+           std::to_string(kMaxInstances) + " are read";
   std::size_t triangles = 0, points = 0;
   for (const scene::Instance& i : s.instances) {
     if (i.mesh >= s.meshes.size()) continue;

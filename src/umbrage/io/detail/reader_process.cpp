@@ -105,7 +105,8 @@ Result<pid_t> start(const fs::path& reader, const ReaderJob& job, int handover, 
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   pid_t child = -1;
-  if (const int code = posix_spawn(&child, reader.c_str(), &spawn.files, &spawn.attributes, argv.data(), environ); code != 0)
+  if (const int code = posix_spawn(&child, reader.c_str(), &spawn.files, &spawn.attributes, argv.data(), environ);
+      code != 0)
     return fail(ErrorCode::input, "the reader " + reader.string() + " cannot be started: " + systemReason(code));
   return child;
 }
@@ -189,7 +190,7 @@ std::string explain(const Ending& ending, const ReaderJob& job, const std::strin
 }
 
 Result<std::vector<std::byte>> readHandover(int fd, std::size_t limit) {
-  struct stat status{};
+  struct stat status {};
   if (::fstat(fd, &status) != 0) return fail(ErrorCode::input, "the hand-over cannot be read: " + systemReason(errno));
   const auto size = static_cast<std::size_t>(status.st_size);
   if (size > limit) return fail(ErrorCode::input, "is too large: the scene does not fit into the limit on memory");

@@ -7,8 +7,8 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-#include <algorithm>
 #include <assimp/DefaultIOSystem.h>
+#include <algorithm>
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
 #include <cmath>
@@ -149,7 +149,8 @@ void addNodes(const aiScene& given, const Mat4& root, const std::string& fileNam
 Result<scene::Scene> readWithAssimp(const Request& request, detail::Format format) {
   Complaints complaints;
   Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
-  Assimp::DefaultLogger::get()->attachStream(new Listener(complaints, request.file), Assimp::Logger::Warn | Assimp::Logger::Err);
+  Assimp::DefaultLogger::get()->attachStream(new Listener(complaints, request.file),
+                                             Assimp::Logger::Warn | Assimp::Logger::Err);
   Assimp::Importer importer;
   importer.SetIOHandler(new FolderOnly(request.file.parent_path()));
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);

@@ -55,9 +55,9 @@ std::optional<std::uint32_t> CityMaterials::ofAppearance(std::size_t index) cons
 
 // What decides the material of a surface, walked down together with the boundaries.
 struct CityMesh::Look {
-  const Json& surfaces;        ///< semantic surface objects
-  const Json& semantics;       ///< nested indices into them
-  const Json& appearance;      ///< nested indices into the file's materials
+  const Json& surfaces;    ///< semantic surface objects
+  const Json& semantics;   ///< nested indices into them
+  const Json& appearance;  ///< nested indices into the file's materials
   const std::string& objectType;
 };
 
@@ -66,7 +66,8 @@ void CityMesh::add(const Json& geometry, const std::string& objectType) {
   if (!levels) return;
   const Json& semantics = member(geometry, "semantics");
   addNested(member(geometry, "boundaries"), *levels,
-            {member(semantics, "surfaces"), member(semantics, "values"), firstTheme(member(geometry, "material")), objectType});
+            {member(semantics, "surfaces"), member(semantics, "values"), firstTheme(member(geometry, "material")),
+             objectType});
 }
 
 void CityMesh::addNested(const Json& boundaries, int levels, const Look& look) {

@@ -63,7 +63,8 @@ Result<Json> parse(std::string_view text) {
   } catch (const Json::exception& fault) {
     const std::string message = fault.what();
     const auto begin = message.find("] ");
-    return fail(ErrorCode::input, "is not valid JSON: " + (begin == std::string::npos ? message : message.substr(begin + 2)));
+    return fail(ErrorCode::input,
+                "is not valid JSON: " + (begin == std::string::npos ? message : message.substr(begin + 2)));
   }
 }
 
@@ -132,7 +133,8 @@ void CityReader::addObjects(const Json& objects, const Json& vertexList) {
 }
 
 std::string CityReader::lodOf(const Json& geometry) const {
-  if (const auto index = indexOf(member(geometry, "template"))) return lodText(member(element(templates_, *index), "lod"));
+  if (const auto index = indexOf(member(geometry, "template")))
+    return lodText(member(element(templates_, *index), "lod"));
   return lodText(member(geometry, "lod"));
 }
 
@@ -228,7 +230,9 @@ scene::Scene CityReader::finish() {
   if (instancesDropped_ > 0)
     warnings.push_back(counted(instancesDropped_, "template instance") + " dropped: no such template or placement");
   if (objectsMalformed_ > 0) warnings.push_back(counted(objectsMalformed_, "city object") + " dropped: not an object");
-  if (brokenLines_ > 0) warnings.push_back(std::to_string(brokenLines_) + " of " + counted(lines_, "line") + " dropped: not a CityJSONFeature");
+  if (brokenLines_ > 0)
+    warnings.push_back(std::to_string(brokenLines_) + " of " + counted(lines_, "line") +
+                       " dropped: not a CityJSONFeature");
   if (objectsWithoutLod_ > 0) {
     std::string levels;
     for (const std::string& lod : lodsSeen_) levels += (levels.empty() ? "" : ", ") + lod;

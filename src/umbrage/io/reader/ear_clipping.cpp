@@ -24,7 +24,8 @@ std::size_t bridgeEnd(const Loop& loop, const Loop& hole, const Vec2& from) {
   std::vector<std::size_t> byDistance(loop.size());
   for (std::size_t i = 0; i < loop.size(); ++i) byDistance[i] = i;
   const auto distance = [&](std::size_t i) { return glm::dot(loop[i].at - from, loop[i].at - from); };
-  std::sort(byDistance.begin(), byDistance.end(), [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
+  std::sort(byDistance.begin(), byDistance.end(),
+            [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
   for (const std::size_t i : byDistance)
     if (!crossesAny(from, loop[i].at, loop) && !crossesAny(from, loop[i].at, hole)) return i;
   return byDistance.front();
@@ -73,7 +74,8 @@ Ear earAt(const Loop& loop, std::size_t i) {
 bool isEar(const Loop& loop, std::size_t i) {
   const Ear ear = earAt(loop, i);
   if (turn(ear.a, ear.b, ear.c) <= 0.0) return false;
-  return std::none_of(loop.begin(), loop.end(), [&](const PlaneCorner& p) { return covers(ear.a, ear.b, ear.c, p.at); });
+  return std::none_of(loop.begin(), loop.end(),
+                      [&](const PlaneCorner& p) { return covers(ear.a, ear.b, ear.c, p.at); });
 }
 
 // Going round from `from`: the first proper ear; else the flattest corner, which adds or takes the least area.

@@ -27,7 +27,8 @@ using IndexOf = std::map<Place, std::uint32_t>;
 GEOSGeometry* makeRing(GEOSContextHandle_t context, const std::vector<PlaneCorner>& ring) {
   const auto size = static_cast<unsigned>(ring.size());
   GEOSCoordSequence* sequence = GEOSCoordSeq_create_r(context, size + 1, 2);
-  for (unsigned i = 0; i <= size; ++i) GEOSCoordSeq_setXY_r(context, sequence, i, ring[i % size].at.x, ring[i % size].at.y);
+  for (unsigned i = 0; i <= size; ++i)
+    GEOSCoordSeq_setXY_r(context, sequence, i, ring[i % size].at.x, ring[i % size].at.y);
   return GEOSGeom_createLinearRing_r(context, sequence);
 }
 
@@ -50,7 +51,8 @@ std::optional<IndexOf> indexCorners(const PlanePolygon& polygon) {
   return indexOf;
 }
 
-std::optional<mesh::Triangle> cornersOf(GEOSContextHandle_t context, const GEOSGeometry* triangle, const IndexOf& indexOf) {
+std::optional<mesh::Triangle> cornersOf(GEOSContextHandle_t context, const GEOSGeometry* triangle,
+                                        const IndexOf& indexOf) {
   const GEOSGeometry* ring = GEOSGetExteriorRing_r(context, triangle);
   const GEOSCoordSequence* sequence = ring != nullptr ? GEOSGeom_getCoordSeq_r(context, ring) : nullptr;
   unsigned size = 0;
@@ -78,7 +80,8 @@ std::vector<mesh::Triangle> triangulateWithGeos(const PlanePolygon& polygon) {
   const Context context(GEOS_init_r());
   const Geometry whole = makePolygon(context.get(), polygon);
   if (whole == nullptr) return {};
-  const Geometry parts(GEOSConstrainedDelaunayTriangulation_r(context.get(), whole.get()), DestroyGeometry{context.get()});
+  const Geometry parts(GEOSConstrainedDelaunayTriangulation_r(context.get(), whole.get()),
+                       DestroyGeometry{context.get()});
   if (parts == nullptr) return {};
   std::vector<mesh::Triangle> triangles;
   const int count = GEOSGetNumGeometries_r(context.get(), parts.get());

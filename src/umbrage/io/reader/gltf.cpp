@@ -17,8 +17,8 @@ namespace {
 
 // What a file may demand: these change the look of textures and reflections, or are read here.
 constexpr std::array<std::string_view, 8> kHarmless = {
-    "KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu", "EXT_texture_webp", "MSFT_texture_dds",
-    "KHR_lights_punctual",   "KHR_xmp_json_ld",       "KHR_animation_pointer"};
+    "KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu", "EXT_texture_webp",
+    "MSFT_texture_dds",      "KHR_lights_punctual",   "KHR_xmp_json_ld",    "KHR_animation_pointer"};
 constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
 constexpr std::string_view kInstancing = "EXT_mesh_gpu_instancing";
 
@@ -27,9 +27,7 @@ bool isHarmless(std::string_view extension) {
          std::find(kHarmless.begin(), kHarmless.end(), extension) != kHarmless.end();
 }
 
-bool isCompression(std::string_view extension) {
-  return extension == kDraco || extension == "EXT_meshopt_compression";
-}
+bool isCompression(std::string_view extension) { return extension == kDraco || extension == "EXT_meshopt_compression"; }
 
 bool skipImage(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
   return true;
@@ -85,10 +83,10 @@ Result<tinygltf::Model> parse(const Request& request) {
   std::string errors, warnings;
   const auto size = static_cast<unsigned>(bytes->size());
   const bool parsed =
-      binary ? loader.LoadBinaryFromMemory(&model, &errors, &warnings, reinterpret_cast<const unsigned char*>(bytes->data()),
-                                           size, folder.string())
-             : loader.LoadASCIIFromString(&model, &errors, &warnings, reinterpret_cast<const char*>(bytes->data()), size,
-                                          folder.string());
+      binary ? loader.LoadBinaryFromMemory(&model, &errors, &warnings,
+                                           reinterpret_cast<const unsigned char*>(bytes->data()), size, folder.string())
+             : loader.LoadASCIIFromString(&model, &errors, &warnings, reinterpret_cast<const char*>(bytes->data()),
+                                          size, folder.string());
   // Before the errors: a file that demands what is not known here may well look broken.
   for (const std::string& extension : model.extensionsRequired)
     if (!isHarmless(extension)) return fail(ErrorCode::unsupported, "needs the glTF extension " + extension);
@@ -157,7 +155,8 @@ class GltfReader {
 
 Result<scene::Scene> GltfReader::read() {
   scene_.up = scene::UpAxis::y;
-  for (std::size_t i = 0; i < model_.materials.size(); ++i) scene_.materials.push_back(materialOf(model_.materials[i], i));
+  for (std::size_t i = 0; i < model_.materials.size(); ++i)
+    scene_.materials.push_back(materialOf(model_.materials[i], i));
   scene_.materials.push_back({"default", Vec3(0.8), 1.0});
   visited_.assign(model_.nodes.size(), false);
   if (auto walked = walk(); !walked) return tl::unexpected(walked.error());
@@ -219,12 +218,14 @@ Result<void> GltfReader::enter(const Visit& visit, std::vector<Visit>& stack) {
   if (node.mesh >= 0) {
     const auto mesh = meshOf(node.mesh);
     if (!mesh) return tl::unexpected(mesh.error());
-    scene_.instances.push_back({node.name.empty() ? childPath(path, scene_.meshes[*mesh]->name) : path, *mesh, toWorld, true});
+    scene_.instances.push_back(
+        {node.name.empty() ? childPath(path, scene_.meshes[*mesh]->name) : path, *mesh, toWorld, true});
     if (node.skin >= 0) complaints_.add("skins are not read: a skinned mesh is shown as it was modelled");
     if (node.extensions.contains(std::string(kInstancing)))
       complaints_.add(std::string(kInstancing) + " is not read: such a mesh is shown once");
   }
-  for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) stack.push_back({*child, toWorld, path});
+  for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+    stack.push_back({*child, toWorld, path});
   return {};
 }
 
@@ -237,7 +238,8 @@ Result<std::uint32_t> GltfReader::meshOf(int index) {
   m.name = given.name.empty() ? "mesh " + std::to_string(index) : given.name;
   for (const tinygltf::Primitive& primitive : given.primitives)
     if (auto added = addPrimitive(primitive, m); !added)
-      return fail(added.error().code, added.error().message, "mesh " + std::to_string(index) + ", " + added.error().where);
+      return fail(added.error().code, added.error().message,
+                  "mesh " + std::to_string(index) + ", " + added.error().where);
   const auto place = static_cast<std::uint32_t>(scene_.meshes.size());
   scene_.meshes.push_back(std::make_shared<const mesh::Mesh>(std::move(m)));
   return meshes_[index] = place;
@@ -268,7 +270,8 @@ Result<void> GltfReader::addPrimitive(const tinygltf::Primitive& primitive, mesh
   const auto count = static_cast<std::uint32_t>(points->size());
   m.positions.insert(m.positions.end(), points->begin(), points->end());
   const bool known = primitive.material >= 0 && static_cast<std::size_t>(primitive.material) < model_.materials.size();
-  const auto material = static_cast<std::uint32_t>(known ? static_cast<std::size_t>(primitive.material) : model_.materials.size());
+  const auto material =
+      static_cast<std::uint32_t>(known ? static_cast<std::size_t>(primitive.material) : model_.materials.size());
   for (const mesh::Triangle& t : assemble(primitive.mode, corners)) {
     mesh::Triangle placed;
     // A corner outside this primitive must not become one of the next.

@@ -33,8 +33,8 @@ struct Run {
   std::size_t stride = 0;
 };
 
-Result<Run> locate(const tinygltf::Model& model, int viewIndex, std::size_t offset, std::size_t count, const Layout& layout,
-                   bool strided) {
+Result<Run> locate(const tinygltf::Model& model, int viewIndex, std::size_t offset, std::size_t count,
+                   const Layout& layout, bool strided) {
   if (viewIndex < 0 || static_cast<std::size_t>(viewIndex) >= model.bufferViews.size())
     return fail(ErrorCode::input, "does not exist", named("bufferView", viewIndex));
   const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(viewIndex)];
@@ -47,7 +47,8 @@ Result<Run> locate(const tinygltf::Model& model, int viewIndex, std::size_t offs
   const std::size_t stride = strided && view.byteStride != 0 ? view.byteStride : size;
   if (stride > 4096) return fail(ErrorCode::input, "the byteStride is out of range", named("bufferView", viewIndex));
   const std::size_t room = offset <= view.byteLength ? view.byteLength - offset : 0;
-  if (count > 0 && (offset > view.byteLength || size > room || (count - 1) > (room - size) / std::max<std::size_t>(stride, 1)))
+  if (count > 0 &&
+      (offset > view.byteLength || size > room || (count - 1) > (room - size) / std::max<std::size_t>(stride, 1)))
     return fail(ErrorCode::input, "holds less than its accessor asks for", named("bufferView", viewIndex));
   return Run{buffer.data() + view.byteOffset + offset, stride};
 }
@@ -62,20 +63,13 @@ double component(const unsigned char* at, bool normalized) {
 
 double readComponent(const unsigned char* at, const Layout& layout) {
   switch (layout.componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return component<std::int8_t>(at, layout.normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return component<std::uint8_t>(at, layout.normalized);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return component<std::int16_t>(at, layout.normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return component<std::uint16_t>(at, layout.normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-      return component<std::uint32_t>(at, layout.normalized);
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
-      return component<float>(at, false);
-    default:
-      return 0.0;
+    case TINYGLTF_COMPONENT_TYPE_BYTE: return component<std::int8_t>(at, layout.normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return component<std::uint8_t>(at, layout.normalized);
+    case TINYGLTF_COMPONENT_TYPE_SHORT: return component<std::int16_t>(at, layout.normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return component<std::uint16_t>(at, layout.normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return component<std::uint32_t>(at, layout.normalized);
+    case TINYGLTF_COMPONENT_TYPE_FLOAT: return component<float>(at, false);
+    default: return 0.0;
   }
 }
 
@@ -94,8 +88,8 @@ Result<void> applySparse(const tinygltf::Model& model, const tinygltf::Accessor&
   const auto count = static_cast<std::size_t>(sparse.count);
   const Layout indexLayout{sparse.indices.componentType, 1, false};
   if (indexLayout.componentSize() == 0) return fail(ErrorCode::input, "the sparse indices have no known type");
-  const auto indices =
-      locate(model, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset), count, indexLayout, false);
+  const auto indices = locate(model, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset),
+                              count, indexLayout, false);
   if (!indices) return tl::unexpected(indices.error());
   const auto changes =
       locate(model, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), count, layout, false);
@@ -104,7 +98,8 @@ Result<void> applySparse(const tinygltf::Model& model, const tinygltf::Accessor&
     const double target = readComponent(indices->data + i * indices->stride, indexLayout);
     if (!(target >= 0.0 && target < static_cast<double>(accessor.count)))
       return fail(ErrorCode::input, "a sparse index is out of range");
-    copy({changes->data + i * changes->stride, 0}, 1, layout, &values[static_cast<std::size_t>(target) * layout.components]);
+    copy({changes->data + i * changes->stride, 0}, 1, layout,
+         &values[static_cast<std::size_t>(target) * layout.components]);
   }
   return {};
 }
@@ -119,7 +114,8 @@ Result<std::vector<double>> readValues(const tinygltf::Model& model, int index, 
     return fail(ErrorCode::input, "is of the wrong type for its use", named("accessor", index));
   if (accessor.count > kMaxElements) return fail(ErrorCode::input, "is too large", named("accessor", index));
   const bool stored = accessor.bufferView >= 0;
-  const auto run = stored ? locate(model, accessor.bufferView, accessor.byteOffset, accessor.count, layout, true) : Run{};
+  const auto run =
+      stored ? locate(model, accessor.bufferView, accessor.byteOffset, accessor.count, layout, true) : Run{};
   if (!run) return tl::unexpected(run.error());
   std::vector<double> values(accessor.count * components, 0.0);
   if (stored) copy(*run, accessor.count, layout, values.data());
@@ -136,7 +132,8 @@ Result<std::vector<Vec3>> readPoints(const tinygltf::Model& model, int accessor)
   if (!values) return tl::unexpected(values.error());
   std::vector<Vec3> points;
   points.reserve(values->size() / 3);
-  for (std::size_t i = 0; i + 2 < values->size(); i += 3) points.emplace_back((*values)[i], (*values)[i + 1], (*values)[i + 2]);
+  for (std::size_t i = 0; i + 2 < values->size(); i += 3)
+    points.emplace_back((*values)[i], (*values)[i + 1], (*values)[i + 2]);
   return points;
 }
 

@@ -91,7 +91,8 @@ void Collector::endPart() {
   placed_ = {};
 }
 
-void Collector::addTriangle(SoCallbackAction* action, const SoNode* shape, const SoPrimitiveVertex* const (&corners)[3]) {
+void Collector::addTriangle(SoCallbackAction* action, const SoNode* shape,
+                            const SoPrimitiveVertex* const (&corners)[3]) {
   if (shape != shape_ || matrixOf(action->getModelMatrix()) != placed_.toWorld) beginPart(action, shape);
   const auto base = static_cast<std::uint32_t>(part_.positions.size());
   for (const SoPrimitiveVertex* corner : corners) part_.positions.push_back(vectorOf(corner->getPoint()));
@@ -104,9 +105,10 @@ std::uint32_t Collector::materialAt(SoCallbackAction* action, int index) {
   const SoLazyElement* lazy = SoLazyElement::getInstance(state);
   // Coin reads beyond its arrays for an index beyond them.
   const SbColor colour = SoLazyElement::getDiffuse(state, std::clamp(index, 0, std::max(lazy->getNumDiffuse() - 1, 0)));
-  const float clear = SoLazyElement::getTransparency(state, std::clamp(index, 0, std::max(lazy->getNumTransparencies() - 1, 0)));
-  const auto [at, isNew] =
-      materials_.try_emplace({colour[0], colour[1], colour[2], clear}, static_cast<std::uint32_t>(scene_.materials.size()));
+  const float clear =
+      SoLazyElement::getTransparency(state, std::clamp(index, 0, std::max(lazy->getNumTransparencies() - 1, 0)));
+  const auto [at, isNew] = materials_.try_emplace({colour[0], colour[1], colour[2], clear},
+                                                  static_cast<std::uint32_t>(scene_.materials.size()));
   if (isNew) scene_.materials.push_back({"", colourOf(colour), 1.0 - clear});
   return at->second;
 }
@@ -148,12 +150,14 @@ void Collector::addLight(SoCallbackAction* action, const SoNode* node) {
   const Mat4 m = matrixOf(action->getModelMatrix());
   scene::Light light;
   if (describe<SoPointLight>(node, light))
-    light.shape = scene::PointLight{transformPoint(m, vectorOf(static_cast<const SoPointLight*>(node)->location.getValue()))};
-  else if (describe<SoVRMLPointLight>(node, light))
-    light.shape = scene::PointLight{transformPoint(m, vectorOf(static_cast<const SoVRMLPointLight*>(node)->location.getValue()))};
-  else if (describe<SoDirectionalLight>(node, light))
     light.shape =
-        scene::DirectionalLight{transformVector(m, vectorOf(static_cast<const SoDirectionalLight*>(node)->direction.getValue()))};
+        scene::PointLight{transformPoint(m, vectorOf(static_cast<const SoPointLight*>(node)->location.getValue()))};
+  else if (describe<SoVRMLPointLight>(node, light))
+    light.shape =
+        scene::PointLight{transformPoint(m, vectorOf(static_cast<const SoVRMLPointLight*>(node)->location.getValue()))};
+  else if (describe<SoDirectionalLight>(node, light))
+    light.shape = scene::DirectionalLight{
+        transformVector(m, vectorOf(static_cast<const SoDirectionalLight*>(node)->direction.getValue()))};
   else if (describe<SoVRMLDirectionalLight>(node, light))
     light.shape = scene::DirectionalLight{
         transformVector(m, vectorOf(static_cast<const SoVRMLDirectionalLight*>(node)->direction.getValue()))};

@@ -83,7 +83,8 @@ bool gridFits(const SoVRMLElevationGrid& grid) {
 bool meshFits(const SoQuadMesh& mesh, std::int64_t points) {
   const std::int64_t rows = mesh.verticesPerColumn.getValue(), columns = mesh.verticesPerRow.getValue();
   const std::int64_t start = mesh.startIndex.getValue();
-  return rows >= 0 && columns >= 0 && start >= 0 && start <= points && (columns == 0 || rows <= (points - start) / columns);
+  return rows >= 0 && columns >= 0 && start >= 0 && start <= points &&
+         (columns == 0 || rows <= (points - start) / columns);
 }
 
 bool pointsFit(SoCallbackAction* action, const SoNode* shape) {
@@ -121,7 +122,8 @@ Result<void> checkGraph(SoNode* root) {
     stack.pop_back();
     marks[node].open = false;
     if (!stack.empty()) marks[stack.back().node].nodes += marks[node].nodes;
-    if (marks[node].nodes > kMaxNodes) return fail(ErrorCode::input, "is too large: millions of nodes once all uses are followed");
+    if (marks[node].nodes > kMaxNodes)
+      return fail(ErrorCode::input, "is too large: millions of nodes once all uses are followed");
   }
   return {};
 }

@@ -1,7 +1,6 @@
 #include "umbrage/io/reader/inventor_files.hpp"
 
 #include <Inventor/SbImage.h>
-#include <Inventor/lists/SbStringList.h>
 #include <Inventor/SoDB.h>
 #include <Inventor/SoInput.h>
 #include <Inventor/SoInteraction.h>
@@ -10,6 +9,7 @@
 #include <Inventor/errors/SoMemoryError.h>
 #include <Inventor/errors/SoReadError.h>
 #include <Inventor/fields/SoSFTime.h>
+#include <Inventor/lists/SbStringList.h>
 #include <Inventor/misc/SoChildList.h>
 #include <Inventor/misc/SoProto.h>
 #include <Inventor/nodes/SoFile.h>
@@ -40,7 +40,8 @@ Session& session() {
 
 void listen(const SoError* error, void*) {
   std::string text = error->getDebugString().getString();
-  for (const std::string& noise : {session().folder.string() + "/", std::string("Coin read error: "), std::string("\t")})
+  for (const std::string& noise :
+       {session().folder.string() + "/", std::string("Coin read error: "), std::string("\t")})
     for (auto at = text.find(noise); at != std::string::npos; at = text.find(noise)) text.erase(at, noise.size());
   for (char& c : text)
     if (c == '\n') c = ' ';

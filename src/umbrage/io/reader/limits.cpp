@@ -75,9 +75,9 @@ Program readOnlyProgram() {
     refuseCall(p, number);
 #endif
   for (const long number :
-       {SYS_openat2, SYS_unlinkat, SYS_renameat, SYS_renameat2, SYS_mkdirat, SYS_linkat, SYS_symlinkat, SYS_mknodat,
-        SYS_fchmodat, SYS_fchownat, SYS_truncate, SYS_setxattr, SYS_lsetxattr, SYS_execve, SYS_execveat, SYS_socket,
-        SYS_connect, SYS_ptrace, SYS_kill, SYS_io_uring_setup, SYS_mount})
+       {SYS_openat2,  SYS_unlinkat, SYS_renameat, SYS_renameat2, SYS_mkdirat,  SYS_linkat,         SYS_symlinkat,
+        SYS_mknodat,  SYS_fchmodat, SYS_fchownat, SYS_truncate,  SYS_setxattr, SYS_lsetxattr,      SYS_execve,
+        SYS_execveat, SYS_socket,   SYS_connect,  SYS_ptrace,    SYS_kill,     SYS_io_uring_setup, SYS_mount})
     refuseCall(p, number);
   statement(p, BPF_RET | BPF_K, SECCOMP_RET_ALLOW);
   return p;

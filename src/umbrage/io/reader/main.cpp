@@ -79,8 +79,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   const int fd = std::atoi(argv[1]);
-  umbrage::io::reader::confine({std::strtoull(argv[2], nullptr, 10), std::strtoull(argv[3], nullptr, 10),
-                                std::strtoull(argv[4], nullptr, 10)});
+  umbrage::io::reader::confine(
+      {std::strtoull(argv[2], nullptr, 10), std::strtoull(argv[3], nullptr, 10), std::strtoull(argv[4], nullptr, 10)});
   Job job;
   job.request.file = argv[5];
   if (argc > 6) job.request.lod = argv[6];

@@ -72,7 +72,8 @@ bool isWatertight(const PlanePolygon& polygon, const std::vector<mesh::Triangle>
   EdgeBalance balance;
   for (const auto& ring : polygon) {
     corners += ring.size();
-    for (std::size_t i = 0; i < ring.size(); ++i) addEdge(balance, ring[i].index, ring[(i + 1) % ring.size()].index, -1);
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      addEdge(balance, ring[i].index, ring[(i + 1) % ring.size()].index, -1);
   }
   for (const mesh::Triangle& t : triangles)
     for (int k = 0; k < 3; ++k) addEdge(balance, t[k], t[(k + 1) % 3], 1);

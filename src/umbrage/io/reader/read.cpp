@@ -7,16 +7,11 @@ namespace {
 
 Result<scene::Scene> readAs(const Request& request, detail::Format format) {
   switch (format) {
-    case detail::Format::gltf:
-      return readGltf(request);
-    case detail::Format::inventor:
-      return readInventor(request);
-    case detail::Format::cityJson:
-      return readCityJson(request);
-    case detail::Format::cityJsonSeq:
-      return readCityJsonSeq(request);
-    default:
-      return readWithAssimp(request, format);
+    case detail::Format::gltf: return readGltf(request);
+    case detail::Format::inventor: return readInventor(request);
+    case detail::Format::cityJson: return readCityJson(request);
+    case detail::Format::cityJsonSeq: return readCityJsonSeq(request);
+    default: return readWithAssimp(request, format);
   }
 }
 

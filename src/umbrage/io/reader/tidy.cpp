@@ -114,7 +114,8 @@ void tidyInstances(scene::Scene& s, Dropped& dropped) {
 void warn(scene::Scene& s, const Dropped& dropped, std::size_t triangles) {
   const std::string of = " of " + counted(triangles, "triangle") + " dropped: ";
   if (dropped.notFinite > 0) s.warnings.push_back(std::to_string(dropped.notFinite) + of + "coordinates not finite");
-  if (dropped.outOfRange > 0) s.warnings.push_back(std::to_string(dropped.outOfRange) + of + "corners that do not exist");
+  if (dropped.outOfRange > 0)
+    s.warnings.push_back(std::to_string(dropped.outOfRange) + of + "corners that do not exist");
   if (dropped.instances > 0)
     s.warnings.push_back(counted(dropped.instances, "part") + " dropped: the placement is not finite");
   if (dropped.lights > 0) s.warnings.push_back(counted(dropped.lights, "light") + " dropped: out of range");
@@ -143,8 +144,8 @@ void warnOfCoarseness(scene::Scene& s) {
   for (int k = 0; k < 3; ++k) far = std::max({far, std::abs(box.min[k]), std::abs(box.max[k])});
   const double step = std::ldexp(far, -23);
   if (box.radius() > 0.0 && step > kCoarseStep * box.radius())
-    s.warnings.push_back("the coordinates are far from the origin: they are read in steps of up to " + std::to_string(step) +
-                         " units");
+    s.warnings.push_back("the coordinates are far from the origin: they are read in steps of up to " +
+                         std::to_string(step) + " units");
 }
 
 std::string childPath(const std::string& parent, std::string_view name) {
