@@ -10,7 +10,7 @@ namespace umbrage {
 using ProgressSink = std::function<bool(double fraction, std::string_view what)>;
 
 /// True to go on. An empty sink never cancels.
-inline bool report(const ProgressSink& sink, double fraction, std::string_view what) {
+inline bool reportProgress(const ProgressSink& sink, double fraction, std::string_view what) {
   return !sink || sink(fraction, what);
 }
 

@@ -48,7 +48,7 @@ void share(std::vector<PeriodStep>& steps, sun::Instant from, sun::Instant to) {
 
 std::string offsetOf(const sun::ClockReading& reading, const sun::Zone& zone) {
   if (zone.kind == sun::Zone::Kind::solar)
-    return "hour angle 0 at 12:00; UTC" + sun::offsetText(reading.offset) + " now";
+    return "hour angle 0 at 12:00; UTC" + sun::offsetText(reading.offset) + " at first";
   const std::string offset = "UTC" + sun::offsetText(reading.offset);
   // Zones without letters of their own are abbreviated by their offset.
   const bool lettered =

@@ -67,7 +67,7 @@ struct Work {
   double done = 0.0, total = 1.0;
 
   [[nodiscard]] Result<void> report(std::string_view what) const {
-    if (umbrage::report(sink, std::min(1.0, done / total), what)) return {};
+    if (reportProgress(sink, std::min(1.0, done / total), what)) return {};
     return fail(ErrorCode::cancelled, "cancelled");
   }
 };
@@ -136,6 +136,7 @@ Result<Profile> profile(const scene::Scene& scene, const ProfileOptions& options
 
   Profile out;
   out.camera = options.camera;
+  out.date = options.period.date;
   out.parts = std::move(*parts);
   out.warnings = std::move(moments->warnings);
   out.ledger = ledgerOf(scene, options, *moments, technique.traits());
@@ -169,7 +170,7 @@ Result<Profile> profile(const scene::Scene& scene, const ProfileOptions& options
       if (step.moment.sunIsUp()) step.parts.push_back(alone > 0 ? std::move(masks->light[light++]) : step.light);
   }
   accumulate(out);
-  static_cast<void>(report(progress, 1.0, "shadows"));
+  static_cast<void>(reportProgress(progress, 1.0, "shadows"));
   return out;
 }
 

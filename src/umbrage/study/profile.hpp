@@ -45,6 +45,7 @@ struct LedgerLine {
 /// 2. In shadow is what no direct sun reaches, be it a cast shadow or a face turned away.
 struct Profile {
   scene::Camera camera;
+  std::chrono::year_month_day date;
   std::shared_ptr<const shadow::Geometry> geometry;  ///< what was seen; which of it casts is said by the options
   shadow::SurfaceBuffer surface;
   std::vector<ProfileStep> steps;
