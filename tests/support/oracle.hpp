@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "umbrage/math/predicates.hpp"
 #include "umbrage/scene/camera.hpp"
 #include "umbrage/scene/light.hpp"
 #include "umbrage/scene/surfaces.hpp"
@@ -64,14 +65,16 @@ class Oracle {
     return pixel;
   }
 
-  /// Whether a caster lies between a point on a surface and the light.
-  [[nodiscard]] Answer hidden(const Vec3& point, const Vec3& towards, bool finite) const {
+  /// Whether a caster lies between a point on a surface and the light; casters that touch `besides`, if
+  /// given, are left out.
+  [[nodiscard]] Answer hidden(const Vec3& point, const Vec3& towards, bool finite, const Vec3* besides = nullptr) const {
     Answer answer = Answer::no;
     const double near = 1e-10 * size_ / glm::length(towards);
     for (std::uint32_t t = 0; t < surfaces_.triangles.size(); ++t) {
       if (surfaces_.casts[t] == 0) continue;
       const Crossing hit = meet(point, towards, surfaces_.corner(t, 0), surfaces_.corner(t, 1), surfaces_.corner(t, 2), 1e-7);
       if (hit.answer == Answer::no || hit.t <= near || (finite && hit.t >= 1.0 - 1e-12)) continue;
+      if (besides != nullptr && touches(t, *besides)) continue;
       if (hit.answer == Answer::yes) return Answer::yes;
       answer = Answer::unclear;
     }
@@ -79,6 +82,10 @@ class Oracle {
   }
 
  private:
+  [[nodiscard]] bool touches(std::uint32_t t, const Vec3& p) const {
+    return distanceToTriangle(p, surfaces_.corner(t, 0), surfaces_.corner(t, 1), surfaces_.corner(t, 2)) <= 1e-9 * size_;
+  }
+
   [[nodiscard]] Pixel nearest(const Vec3& eye, const Vec3& direction) const {
     Pixel pixel;
     double best = std::numeric_limits<double>::infinity(), second = best;
@@ -103,5 +110,16 @@ class Oracle {
   const scene::Surfaces& surfaces_;
   double size_ = 1.0;
 };
+
+/// True when the answer changes within an eighth of a pixel, which is as sharp as ray_traced promises borders (LightRays, law 3).
+inline bool onEdge(const Oracle& truth, const scene::Camera& camera, const scene::Light& light, int x, int y, const Pixel& centre) {
+  for (const double dy : {-0.13, 0.0, 0.13}) {
+    for (const double dx : {-0.13, 0.0, 0.13}) {
+      const Pixel beside = truth.look(camera, light, x + 0.5 + dx, y + 0.5 + dy);
+      if (beside.covered != centre.covered || beside.lit != centre.lit) return true;
+    }
+  }
+  return false;
+}
 
 }  // namespace umbrage::oracle

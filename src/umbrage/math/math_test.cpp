@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "umbrage/math/box.hpp"
 #include "umbrage/math/predicates.hpp"
@@ -33,6 +34,27 @@ TEST(LightSide, KnowsBothSidesAndTheEdgeOnCase) {
   EXPECT_EQ(lightSide(a, b, c, {0, 0, 1, 0}), above);
   EXPECT_EQ(lightSide(a, b, c, {7, 8, 0, 1}), 0);
   EXPECT_EQ(lightSide(a, a, c, {0, 0, 5, 1}), 0);
+}
+
+// A light in a corner lies in the plane, whatever the corner's coordinates are.
+TEST(LightSide, IsZeroForALightInACorner) {
+  for (int i = 0; i < 1000; ++i) {
+    const auto at = [i](int k) { return Vec3(Vec3f(std::sin(i + 7.1 * k), std::cos(3.3 * i - k), std::sin(1.7 * i * k + 2))); };
+    std::array<Vec3, 3> corner{at(1), at(2), at(3)};
+    std::sort(corner.begin(), corner.end(), lexicographicallyLess<Vec3>);
+    for (const Vec3& p : corner) EXPECT_EQ(lightSide(corner[0], corner[1], corner[2], Vec4(p, 1.0)), 0) << i;
+    const Vec3 lifted = corner[1] + 1e-9 * glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
+    EXPECT_NE(lightSide(corner[0], corner[1], corner[2], Vec4(lifted, 1.0)), 0) << i;
+  }
+}
+
+TEST(DistanceToTriangle, ToFaceEdgeAndCorner) {
+  const Vec3 a(0, 0, 0), b(0, 2, 0), c(2, 0, 0);
+  EXPECT_DOUBLE_EQ(distanceToTriangle({0.5, 0.5, -3}, a, b, c), 3.0);
+  EXPECT_DOUBLE_EQ(distanceToTriangle({1, -4, 3}, a, b, c), 5.0);
+  EXPECT_DOUBLE_EQ(distanceToTriangle({5, -4, 0}, a, b, c), 5.0);
+  EXPECT_DOUBLE_EQ(distanceToTriangle({2, 2, 0}, a, b, c), std::sqrt(2.0));
+  EXPECT_DOUBLE_EQ(distanceToTriangle({0, 3, 4}, a, a, a), 5.0);
 }
 
 // On small integers doubles are exact, so the sign must be the exact determinant's.

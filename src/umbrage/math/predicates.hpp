@@ -5,7 +5,7 @@
 namespace umbrage {
 
 /// On which side of the plane of a triangle the light lies: +1, -1, or 0 when the light is in the plane or the triangle has no
-/// area, both as far as double arithmetic can tell.
+/// area, both as far as double arithmetic can tell (within its rounding error).
 ///
 /// `a`, `b`, `c`: the corners in lexicographic order. `light`: homogeneous, (position, 1), or (direction towards the light, 0).
 /// 1. The operands are always used in the same order, so that every edge and every cap of the triangle sees the same sign.
@@ -13,5 +13,8 @@ namespace umbrage {
 /// REQUIRES: `a`, `b`, `c` sorted (not checked).
 /// Source: Kim, Kim and Turk, shadow volumes for non-manifold meshes, 2008; operand order after Pečiva, Milet et al., 2013.
 [[nodiscard]] int lightSide(const Vec3& a, const Vec3& b, const Vec3& c, const Vec4& light);
+
+/// Distance from a point to a triangle, filled. A triangle without area is its edges.
+[[nodiscard]] double distanceToTriangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace umbrage

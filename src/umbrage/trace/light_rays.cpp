@@ -35,14 +35,14 @@ std::vector<std::uint32_t> castersNear(const Occlusion& occlusion, const Vec4& l
   for (const std::uint32_t t : occlusion.trees().casterTriangle) {
     const Corners c = occlusion.corners(t);
     if (apart(glm::min(c.a, glm::min(c.b, c.c)), glm::max(c.a, glm::max(c.b, c.c)))) continue;
-    if (distance(at, c) <= reach && lightSide(c.a, c.b, c.c, light) != 0) found.push_back(t);
+    if (distanceToTriangle(at, c.a, c.b, c.c) <= reach && lightSide(c.a, c.b, c.c, light) != 0) found.push_back(t);
   }
   return found;
 }
 
 // Whether `triangle` is the surface the point lies on, or one that lies upon it as far as the resolution can tell.
 bool sameSurface(const Corners& triangle, const Vec3& point, double resolution) {
-  return distance(point, triangle) <= resolution;
+  return distanceToTriangle(point, triangle.a, triangle.b, triangle.c) <= resolution;
 }
 
 struct Query {

@@ -20,7 +20,4 @@ struct Corners {
 /// REQUIRES: corners in lexicographic order (see lightSide; not checked).
 [[nodiscard]] bool hides(const Corners& triangle, const Vec3& point, const Vec4& light);
 
-/// Distance from a point to a triangle, filled.
-[[nodiscard]] double distance(const Vec3& point, const Corners& triangle);
-
 }  // namespace umbrage::trace

@@ -51,13 +51,6 @@ TEST(Segment, HidesOnlyBetweenPointAndLight) {
   EXPECT_FALSE(hides(kTriangle, {0.5, 0.5, 0}, {0.5, 0.5, 1, 1}));   // the point lies in it
 }
 
-TEST(Segment, DistanceToFaceEdgeAndCorner) {
-  EXPECT_DOUBLE_EQ(distance({0.5, 0.5, -3}, kTriangle), 3.0);
-  EXPECT_DOUBLE_EQ(distance({1, -4, 3}, kTriangle), 5.0);
-  EXPECT_DOUBLE_EQ(distance({5, -4, 0}, kTriangle), 5.0);
-  EXPECT_DOUBLE_EQ(distance({0, 3, 4}, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}), 5.0);
-}
-
 TEST(Occlusion, OfNothingMeetsNothing) {
   const Occlusion nothing = make(shapes::scene({}));
   EXPECT_FALSE(nothing.nearest({0, 0, 0}, {1, 0, 0}));

@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "conformance/judge.hpp"
+#include "support/oracle.hpp"
+#include "support/shapes.hpp"
+
+namespace umbrage::conformance {
+namespace {
+
+class Conformance : public testing::TestWithParam<std::string> {};
+
+void judgeTechnique(const shadow::TechniqueEntry& entry, const Case& c, const std::shared_ptr<const shadow::Geometry>& geometry) {
+  auto judge = Judge::make(entry, geometry);
+  if (!judge) {
+    ASSERT_EQ(judge.error().code, ErrorCode::device) << judge.error().text();
+    std::printf("%-12s cannot run here: %s\n", entry.traits.name.c_str(), judge.error().text().c_str());
+    return;
+  }
+  Tally tally;
+  for (const NamedView& view : c.views) {
+    const auto verdicts = judge->judge(view, c.lights);
+    ASSERT_TRUE(verdicts.has_value()) << entry.traits.name << ", " << view.name << ": " << verdicts.error().text();
+    for (const Verdict& v : *verdicts) {
+      tally.add(v);
+      EXPECT_EQ(v.difference.farFromEdge, 0u)
+          << v.technique << ", view " << v.view << ", light " << v.light << ": " << v.difference.differing << " pixels differ";
+    }
+  }
+  std::printf("%-12s %-24s %4zu masks %8zu covered %6zu differing %4zu far\n", entry.traits.name.c_str(), c.name.c_str(),
+              tally.masks, tally.covered, tally.differing, tally.far);
+}
+
+TEST_P(Conformance, NoPixelDiffersFarFromATrueEdge) {
+  const Case c = makeCase(GetParam());
+  const auto geometry = shadow::makeGeometry(c.scene);
+  for (const shadow::TechniqueEntry& entry : allTechniques()) {
+    if (entry.traits.needsClosed && geometry->casters.report.topology != mesh::Topology::closed) continue;
+    judgeTechnique(entry, c, geometry);
+  }
+}
+
+// Sixteen pixels of every view and light, those on which brute force is sure.
+TEST_P(Conformance, TheTruthAgreesWithBruteForce) {
+  const Case c = makeCase(GetParam());
+  const auto geometry = shadow::makeGeometry(c.scene);
+  const oracle::Oracle bruteForce(geometry->surfaces);
+  const auto truth = allTechniques().front().create();
+  ASSERT_TRUE(truth && (*truth)->prepare(geometry));
+  shapes::Random random(1);
+  std::size_t clear = 0;
+  for (const NamedView& view : c.views) {
+    for (const NamedLight& light : c.lights) {
+      const auto shading = (*truth)->shade({view.camera, {&light.light, 1}});
+      ASSERT_TRUE(shading.has_value());
+      const shadow::LightMask& mask = shading->masks.front();
+      for (int i = 0; i < 16; ++i) {
+        const int x = random.whole(0, view.camera.width - 1), y = random.whole(0, view.camera.height - 1);
+        const oracle::Pixel pixel = bruteForce.look(view.camera, light.light, x + 0.5, y + 0.5);
+        clear += pixel.clear;
+        const bool same = (mask.covered(x, y) != 0) == pixel.covered && (mask.light(x, y) == 255) == pixel.lit;
+        if (!pixel.clear || same || oracle::onEdge(bruteForce, view.camera, light.light, x, y, pixel)) continue;
+        ADD_FAILURE() << "view " << view.name << ", light " << light.name << ", pixel " << x << ' ' << y << ": should be "
+                      << (pixel.covered ? "" : "un") << "covered and " << (pixel.lit ? "lit" : "dark");
+      }
+    }
+  }
+  EXPECT_GT(clear, 8 * c.views.size() * c.lights.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Conformance, testing::ValuesIn(sceneNames()),
+                         [](const testing::TestParamInfo<std::string>& row) { return row.param; });
+
+}  // namespace
+}  // namespace umbrage::conformance
