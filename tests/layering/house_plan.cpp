@@ -22,7 +22,7 @@ const std::vector<ForeignRule>& foreignRules() {
       {"glm/", {"*"}, true},
       {"tl/", {"*"}, true},
       {"fmt/", {"*"}},
-      {"epoxy/", {"gl", "examples"}, true},
+      {"epoxy/", {"gl", "examples", "tests"}, true},
       {"EGL/", {"gl", "examples"}},
       {"embree3/", {"trace", "benchmarks"}},
       {"tbb/", {"trace", "techniques_cpu", "study"}},

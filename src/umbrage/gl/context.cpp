@@ -63,12 +63,13 @@ Result<Handles> open(const Candidate& candidate, const ContextOptions& options) 
   if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) return fail(ErrorCode::device, "knows no OpenGL", candidate.name);
   const std::array<EGLint, 9> wanted{EGL_CONTEXT_MAJOR_VERSION, 4,
                                      EGL_CONTEXT_MINOR_VERSION, 5,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK, options.compatibility ? EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT
+                                                                                    : EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                                      EGL_CONTEXT_OPENGL_DEBUG, options.debug ? EGL_TRUE : EGL_FALSE,
                                      EGL_NONE};
   const EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted.data());
   if (oldApi != EGL_NONE) eglBindAPI(oldApi);
-  if (context == EGL_NO_CONTEXT) return fail(ErrorCode::device, "OpenGL 4.5 core is not to be had", candidate.name);
+  if (context == EGL_NO_CONTEXT) return fail(ErrorCode::device, "OpenGL 4.5 is not to be had", candidate.name);
   return Handles{display, context};
 }
 

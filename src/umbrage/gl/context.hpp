@@ -10,6 +10,7 @@ namespace umbrage::gl {
 
 struct ContextOptions {
   bool debug = false;  ///< ask for a debug context, so that DebugLog hears everything
+  bool compatibility = false;  ///< the compatibility profile, as older hosts need
 };
 
 /// For programs that bring their own context. Errors: ErrorCode::device when none is current or it is older than OpenGL 4.5.

@@ -151,6 +151,7 @@ struct HostScope::State {
   GLint clipOrigin = integer(GL_CLIP_ORIGIN);
   GLint clipDepth = integer(GL_CLIP_DEPTH_MODE);
   GLint clampRead = integer(GL_CLAMP_READ_COLOR);
+  GLint provokingVertex = integer(GL_PROVOKING_VERTEX);
 
   State();
   void restore() const;
@@ -229,6 +230,7 @@ void HostScope::State::restoreFixedFunctions() const {
   glFrontFace(static_cast<GLenum>(frontFace));
   glClipControl(static_cast<GLenum>(clipOrigin), static_cast<GLenum>(clipDepth));
   glClampColor(GL_CLAMP_READ_COLOR, static_cast<GLenum>(clampRead));
+  glProvokingVertex(static_cast<GLenum>(provokingVertex));
 }
 
 void HostScope::State::restore() const {
@@ -247,6 +249,8 @@ HostScope::HostScope() : state_(std::make_unique<State>()) {
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glCullFace(GL_BACK);
   glClampColor(GL_CLAMP_READ_COLOR, GL_FIXED_ONLY);
+  // It decides at which corner llvmpipe starts a triangle's plane equations, and with it the last bits of depth.
+  glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glBindProgramPipeline(0);
 }

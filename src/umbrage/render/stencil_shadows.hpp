@@ -34,7 +34,7 @@ class StencilShadows {
   /// 1. Whether a surface faces the light, and a spot's cone, are the host's to decide; pixels outside a spot's screen area
   ///    may keep their old values.
   /// Errors: ErrorCode::device when the framebuffer has no depth or fewer than 8 bits of stencil, or memory is short.
-  /// CAVEAT: counts modulo 256. Depth that the host computes coarsely (16 or 24 bits with a distant far plane) makes shadow
+  /// CAVEAT: depth that the host computes coarsely (16 or 24 bits with a distant far plane) makes shadow
   /// edges coarse in the distance; a reversed float depth does not.
   [[nodiscard]] Result<shadow::LightStats> mark(const scene::Light& light, const HostView& view,
                                                 const StencilShadowOptions& options = {});
