@@ -60,13 +60,11 @@ Stroke strokeFor(std::size_t steps, double scale) {
 }
 
 Layer shadowLayer(const scene::Scene& scene, const study::Profile& profile, double scale) {
-  constexpr float kEdgeShade = 0.78f;
   Layer layer = detail::paleModel(scene, profile);
   const image::GreyImage edges = detail::formEdges(profile);
-  for (std::size_t i = 0; i < layer.size(); ++i)
-    if (edges.pixels()[i] != 0) layer.pixels()[i] *= kEdgeShade;
+  detail::drawForm(layer, edges);
   const auto times = timesOfDay(profile);
-  const Stroke stroke = strokeFor(sunnySteps(profile), scale);
+  const Stroke stroke = strokeFor(sunnySteps(profile) * std::max<std::size_t>(1, profile.parts.size()), scale);
   detail::Lines lines(edges, stroke.width, stroke.alpha);
   const auto draw = [&](const study::ProfileStep& step, const image::GreyImage& light, image::Rgb8 colour) {
     const auto shadow = detail::castShadow(profile, step, light, scene);
@@ -155,8 +153,9 @@ void writeLedger(Panel& panel, const study::Profile& profile) {
 }
 
 void domeAtCorner(Canvas& canvas, const scene::Scene& scene, const study::Profile& profile, double scale) {
-  const double radius = 46.0 * scale, margin = 80.0 * scale;
-  if (profile.camera.width < 5.0 * margin || profile.camera.height < 3.0 * margin) return;
+  const double shorter = std::min(profile.camera.width, profile.camera.height);
+  const double radius = std::min(46.0 * scale, 0.09 * shorter), margin = 1.9 * radius;
+  if (radius < 16.0) return;
   detail::drawSunDome(canvas, scene, profile, stepColours(profile), {margin, profile.camera.height - margin}, radius);
 }
 
@@ -171,6 +170,14 @@ double hourLine(double hours) {
   return 4.0;
 }
 
+// Hours come in multiples of about this many, so that a line "at least 1 h" must run a little below 1 h.
+double smallestShare(const study::Profile& profile) {
+  double hours = 24.0;
+  for (const auto& step : profile.steps)
+    if (step.moment.sunIsUp()) hours = std::min(hours, double(step.moment.share.count()) / 3.6e6);
+  return hours;
+}
+
 Layer hoursLayer(const scene::Scene& scene, const study::Profile& profile, double hours, double scale) {
   const Layer model = detail::paleModel(scene, profile);
   const auto relief = detail::relief(model);
@@ -182,13 +189,15 @@ Layer hoursLayer(const scene::Scene& scene, const study::Profile& profile, doubl
     inShadow.pixels()[i] = static_cast<float>(profile.shadowMinutes.pixels()[i] / 60.0);
     const double t = hours > 0.0 ? inShadow.pixels()[i] / hours : 0.0;
     layer.pixels()[i] = relief.pixels()[i] * detail::toVec(heatColour(t));
-    if (edges.pixels()[i] != 0) layer.pixels()[i] *= 0.78f;
   }
+  detail::drawForm(layer, edges);
   if (hours <= 0.0) return layer;
   const auto field = detail::smoothed(inShadow);
   detail::Lines lines(edges, static_cast<float>(scale), 0.5f);
+  const double margin = 0.5 * smallestShare(profile);
   for (double level = hourLine(hours); level < hours - 1e-6; level += hourLine(hours))
-    lines.addBorder(field, static_cast<float>(level), detail::toVec(heatColour(level / hours > 0.5 ? 0.15 : 1.0)));
+    lines.addBorder(field, static_cast<float>(level - margin),
+                    detail::toVec(heatColour(level / hours > 0.5 ? 0.15 : 1.0)));
   lines.over(layer);
   return layer;
 }
@@ -228,7 +237,10 @@ image::RgbImage hoursPicture(const scene::Scene& scene, const study::Profile& pr
         if (hours > 0.0) writeHourScale(panel, hours);
         panel.paragraph(fmt::format(
             "The sun is up for {:.2f} h of the period.{}", hours,
-            hours > 0.0 ? fmt::format(" Lines every {:g} h. The shading shows form alone.", hourLine(hours)) : ""));
+            hours > 0.0
+                ? fmt::format(" Lines enclose at least {0:g} h, {1:g} h and so on. The shading shows form alone.",
+                              hourLine(hours), 2.0 * hourLine(hours))
+                : ""));
         writeLedger(panel, profile);
       },
       [&](Canvas& canvas, double scale) { domeAtCorner(canvas, scene, profile, scale); });

@@ -16,6 +16,7 @@
 #include "umbrage/report/colours.hpp"
 #include "umbrage/report/gif.hpp"
 #include "umbrage/report/profile_pictures.hpp"
+#include "umbrage/report/step_pictures.hpp"
 #include "umbrage/report/write_profile.hpp"
 
 namespace umbrage::report {

@@ -5,6 +5,7 @@
 #include "umbrage/png/png.hpp"
 #include "umbrage/report/gif.hpp"
 #include "umbrage/report/profile_pictures.hpp"
+#include "umbrage/report/step_pictures.hpp"
 
 namespace umbrage::report {
 namespace {

@@ -61,38 +61,53 @@ Result<void> checkMemory(const ProfileOptions& options, std::size_t steps) {
                           bytes / kMostMaskBytes));
 }
 
-// What is left to do, so that progress runs evenly over all parts.
-struct Work {
-  const ProgressSink& sink;
-  double done = 0.0, total = 1.0;
+// The lights of the steps with the sun up, and how to shade them for one choice of casters.
+class Shader {
+ public:
+  Shader(const scene::Scene& scene, const scene::Camera& camera, const std::vector<ProfileStep>& steps,
+         shadow::Technique& technique, const ProgressSink& progress, std::size_t choices)
+      : camera_(camera), technique_(technique), progress_(progress) {
+    for (const ProfileStep& step : steps)
+      if (step.moment.sunIsUp()) lights_.push_back(sunLight(step.moment.sun, scene.up, scene.northOffset));
+    total_ = std::max<std::size_t>(1, lights_.size()) * choices;
+  }
 
-  [[nodiscard]] Result<void> report(std::string_view what) const {
-    if (reportProgress(sink, std::min(1.0, done / total), what)) return {};
+  struct Masks {
+    std::shared_ptr<const shadow::Geometry> geometry;
+    shadow::SurfaceBuffer surface;
+    std::vector<image::GreyImage> light;  // one per step with the sun up
+  };
+
+  Result<Masks> shade(const scene::Scene& casting, const std::string& what) {
+    Masks masks;
+    if (auto goOn = tell("preparing " + what); !goOn) return tl::unexpected(goOn.error());
+    masks.geometry = shadow::makeGeometry(casting);
+    if (auto ready = technique_.prepare(masks.geometry); !ready) return tl::unexpected(ready.error());
+    for (std::size_t begin = 0; begin == 0 || begin < lights_.size(); begin += kLightsPerFrame) {
+      if (auto goOn = tell(what); !goOn) return tl::unexpected(goOn.error());
+      const auto some = std::span(lights_).subspan(begin, std::min(kLightsPerFrame, lights_.size() - begin));
+      auto shading = technique_.shade({camera_, some});
+      if (!shading) return tl::unexpected(shading.error());
+      for (shadow::LightMask& mask : shading->masks) masks.light.push_back(std::move(mask.light));
+      masks.surface = std::move(shading->surface);
+      done_ += some.size();
+    }
+    UMBRAGE_CHECK(masks.light.size() == lights_.size(), "a technique gives one mask per light");
+    return masks;
+  }
+
+ private:
+  [[nodiscard]] Result<void> tell(const std::string& what) const {
+    if (reportProgress(progress_, double(done_) / double(total_), what)) return {};
     return fail(ErrorCode::cancelled, "cancelled");
   }
-};
 
-// The masks of all steps with the sun up, for one choice of casters.
-struct StepMasks {
-  shadow::SurfaceBuffer surface;
-  std::vector<image::GreyImage> light;  ///< in the order of the lights
+  const scene::Camera& camera_;
+  shadow::Technique& technique_;
+  const ProgressSink& progress_;
+  std::vector<scene::Light> lights_;
+  std::size_t done_ = 0, total_ = 1;
 };
-
-Result<StepMasks> shadeAll(shadow::Technique& technique, const scene::Camera& camera,
-                           std::span<const scene::Light> lights, const std::string& what, Work& work) {
-  StepMasks masks;
-  for (std::size_t begin = 0; begin == 0 || begin < lights.size(); begin += kLightsPerFrame) {
-    if (auto goOn = work.report(what); !goOn) return tl::unexpected(goOn.error());
-    const auto some = lights.subspan(begin, std::min(kLightsPerFrame, lights.size() - begin));
-    auto shading = technique.shade({camera, some});
-    if (!shading) return tl::unexpected(shading.error());
-    for (shadow::LightMask& mask : shading->masks) masks.light.push_back(std::move(mask.light));
-    masks.surface = std::move(shading->surface);
-    work.done += double(some.size());
-  }
-  UMBRAGE_CHECK(masks.light.size() == lights.size(), "a technique gives one mask per light");
-  return masks;
-}
 
 void addTime(const image::GreyImage& light, const shadow::SurfaceBuffer& surface, double minutes, Profile& out) {
   const auto from = light.pixels();
@@ -117,11 +132,26 @@ void accumulate(Profile& profile) {
   }
 }
 
-std::vector<scene::Light> sunLights(const scene::Scene& scene, const std::vector<ProfileStep>& steps) {
-  std::vector<scene::Light> lights;
-  for (const ProfileStep& step : steps)
-    if (step.moment.sunIsUp()) lights.push_back(sunLight(step.moment.sun, scene.up, scene.northOffset));
-  return lights;
+// Hands the masks out to the steps with the sun up, in their order.
+void give(std::vector<image::GreyImage> masks, std::vector<ProfileStep>& steps, const auto& place) {
+  std::size_t next = 0;
+  for (ProfileStep& step : steps)
+    if (step.moment.sunIsUp()) place(step, std::move(masks[next++]));
+}
+
+// The masks of each part alone; one part alone is the same as all together.
+Result<void> shadeParts(const scene::Scene& scene, Shader& shader, Profile& out) {
+  if (out.parts.size() == 1)
+    for (ProfileStep& step : out.steps)
+      if (step.moment.sunIsUp()) step.parts.push_back(step.light);
+  if (out.parts.size() < 2) return {};
+  for (const ProfilePart& part : out.parts) {
+    auto alone = shader.shade(scene::withCasters(scene, {part.pattern}), "shadows of " + part.pattern);
+    if (!alone) return tl::unexpected(alone.error());
+    give(std::move(alone->light), out.steps,
+         [](ProfileStep& step, image::GreyImage mask) { step.parts.push_back(std::move(mask)); });
+  }
+  return {};
 }
 
 }  // namespace
@@ -142,33 +172,15 @@ Result<Profile> profile(const scene::Scene& scene, const ProfileOptions& options
   out.ledger = ledgerOf(scene, options, *moments, technique.traits());
   for (PeriodStep& moment : moments->steps) out.steps.push_back({std::move(moment), {}, {}});
 
-  const auto lights = sunLights(scene, out.steps);
-  // Alone is the same as together where there is one part only.
-  const std::size_t alone = out.parts.size() > 1 ? out.parts.size() : 0;
-  Work work{progress, 0.0, double(std::max<std::size_t>(1, lights.size()) * (1 + alone))};
-  const auto shade = [&](const scene::Scene& casting, const std::string& what) -> Result<StepMasks> {
-    if (auto goOn = work.report("preparing " + what); !goOn) return tl::unexpected(goOn.error());
-    auto geometry = shadow::makeGeometry(casting);
-    if (auto ready = technique.prepare(geometry); !ready) return tl::unexpected(ready.error());
-    if (!out.geometry) out.geometry = std::move(geometry);
-    return shadeAll(technique, options.camera, lights, what, work);
-  };
-
-  auto together = shade(options.casters.empty() ? scene : scene::withCasters(scene, options.casters), "shadows");
+  Shader shader(scene, options.camera, out.steps, technique, progress, out.parts.size() > 1 ? 1 + out.parts.size() : 1);
+  const auto chosen = options.casters.empty() ? scene : scene::withCasters(scene, options.casters);
+  auto together = shader.shade(chosen, "shadows");
   if (!together) return tl::unexpected(together.error());
+  out.geometry = std::move(together->geometry);
   out.surface = std::move(together->surface);
-  std::size_t light = 0;
-  for (ProfileStep& step : out.steps)
-    if (step.moment.sunIsUp()) step.light = std::move(together->light[light++]);
-
-  for (const ProfilePart& part : out.parts) {
-    auto masks = alone > 0 ? shade(scene::withCasters(scene, {part.pattern}), "shadows of " + part.pattern)
-                           : Result<StepMasks>();
-    if (!masks) return tl::unexpected(masks.error());
-    light = 0;
-    for (ProfileStep& step : out.steps)
-      if (step.moment.sunIsUp()) step.parts.push_back(alone > 0 ? std::move(masks->light[light++]) : step.light);
-  }
+  give(std::move(together->light), out.steps,
+       [](ProfileStep& step, image::GreyImage mask) { step.light = std::move(mask); });
+  if (auto done = shadeParts(scene, shader, out); !done) return tl::unexpected(done.error());
   accumulate(out);
   static_cast<void>(reportProgress(progress, 1.0, "shadows"));
   return out;

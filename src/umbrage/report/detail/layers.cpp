@@ -111,6 +111,19 @@ Layer paleModel(const scene::Scene& scene, const study::Profile& profile) {
   return layer;
 }
 
+void drawForm(Layer& layer, const image::GreyImage& formEdges) {
+  constexpr float kShade = 0.26f, kFaintest = 0.25f;
+  image::Image<float> edges(formEdges.width(), formEdges.height());
+  std::copy(formEdges.pixels().begin(), formEdges.pixels().end(), edges.pixels().begin());
+  // About 0.4 on a single edge, 1 where every pixel is one.
+  const auto crowd = smoothed(smoothed(smoothed(edges)));
+  for (std::size_t i = 0; i < layer.size(); ++i) {
+    if (formEdges.pixels()[i] == 0) continue;
+    const float strength = std::clamp((0.95f - crowd.pixels()[i]) / 0.45f, kFaintest, 1.0f);
+    layer.pixels()[i] *= 1.0f - kShade * strength;
+  }
+}
+
 image::Image<float> relief(const Layer& model) {
   image::Image<float> out(model.width(), model.height());
   for (std::size_t i = 0; i < out.size(); ++i) {

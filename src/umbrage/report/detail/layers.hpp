@@ -12,8 +12,7 @@ using Layer = image::Image<Vec3f>;
 [[nodiscard]] Vec3f toVec(image::Rgb8 colour);
 [[nodiscard]] image::RgbImage toRgb(const Layer& layer);
 
-/// The scene as a pale model under an even sun without shadows, its creases and outlines drawn thinly; parts of the profile in
-/// their colours.
+/// The scene as a pale model under an even sun without shadows; parts of the profile in their colours.
 [[nodiscard]] Layer paleModel(const scene::Scene& scene, const study::Profile& profile);
 
 /// How much the form shows in a heat map: 1 on the brightest surface, less on those turned away from the view's light.
@@ -21,6 +20,9 @@ using Layer = image::Image<Vec3f>;
 
 /// Nonzero where neighbouring pixels lie on surfaces that do not continue each other: another depth, or a crease.
 [[nodiscard]] image::GreyImage formEdges(const study::Profile& profile);
+
+/// Draws the edges of form thinly; where they crowd, fainter, so that fine grids do not turn black.
+void drawForm(Layer& layer, const image::GreyImage& formEdges);
 
 /// How much of each pixel a cast shadow covers, 0..1: where the surface faces the sun and no sun comes. Empty at night.
 /// `light`: the step's mask, of all casters or of one part.

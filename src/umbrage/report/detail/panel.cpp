@@ -119,7 +119,7 @@ void drawSunDome(Canvas& canvas, const scene::Scene& scene, const study::Profile
   };
   std::vector<Vec2> ring;
   for (int i = 0; i <= 72; ++i) ring.push_back(onPaper(horizontal(5.0 * i)));
-  canvas.fillDisc(centre, radius * 1.36, kPaper, 0.8);
+  canvas.fillDisc(centre, radius * 1.55, kPaper, 0.85);
   canvas.fillPolygon(ring, {233, 236, 241}, 0.9);
   canvas.strokeLine(ring, kSoftInk, radius / 45.0);
   for (int i = 0; i < 24; ++i) {
@@ -143,7 +143,7 @@ void drawSunDome(Canvas& canvas, const scene::Scene& scene, const study::Profile
   }
   const TextStyle letter{radius * 0.25, true, kInk};
   for (const auto& [name, degrees] : {std::pair("N", 0.0), {"E", 90.0}, {"S", 180.0}, {"W", 270.0}}) {
-    const Vec2 at = onPaper(1.2 * horizontal(degrees));
+    const Vec2 at = onPaper(1.32 * horizontal(degrees));
     canvas.text(at.x, at.y + 0.09 * radius, name, letter, Align::centre);
   }
 }

@@ -1,3 +1,5 @@
+#include "umbrage/report/step_pictures.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include "umbrage/report/colours.hpp"
 #include "umbrage/report/detail/canvas.hpp"
 #include "umbrage/report/detail/layers.hpp"
-#include "umbrage/report/profile_pictures.hpp"
 #include "umbrage/shadow/composite.hpp"
 #include "umbrage/study/sun_light.hpp"
 
@@ -123,7 +124,7 @@ image::RgbImage StepPictures::partsAt(const study::ProfileStep& step) const {
 image::RgbImage StepPictures::picture(std::size_t index) const {
   UMBRAGE_CHECK(index < profile_.steps.size(), "a step of the profile");
   const study::ProfileStep& step = profile_.steps[index];
-  const double scale = std::clamp(profile_.camera.height / 720.0, 0.8, 3.0);
+  const double scale = std::clamp(profile_.camera.height / 720.0, 0.6, 3.0);
   Canvas canvas(profile_.camera.width, profile_.camera.height, kPaper);
   canvas.paste(profile_.parts.empty() ? sunlit(step) : partsAt(step), 0, 0);
   drawClock(canvas, step.moment, sun::dateText(profile_.date), scale);
