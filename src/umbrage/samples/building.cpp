@@ -13,7 +13,7 @@
 namespace umbrage::samples::detail {
 namespace {
 
-constexpr int kPanels = 132;       // facade axes around the plan
+constexpr int kPanels = 132;  // facade axes around the plan
 constexpr int kStoreys = 24;
 constexpr double kStorey = 3.5, kGround = 6.0;
 constexpr double kRoof = kGround + kStoreys * kStorey;
@@ -118,7 +118,8 @@ Part fins(const Palette& colour, const Skin& skin) {
       const Vec3 out = skin.at(i, 1.0, z) - skin.at(i, 0.0, z);
       const double depth = 0.5 + 0.25 * std::max(0.0, -0.4 * out.x - 0.9 * out.y);
       const Vec3 left = skin.between(i, 0.06, 0.25, z), right = skin.between(i, 0.94, 0.25, z);
-      const Vec3 leftTip = skin.between(i, 0.06, 0.25 + depth, z - 0.125), rightTip = skin.between(i, 0.94, 0.25 + depth, z - 0.125);
+      const Vec3 leftTip = skin.between(i, 0.06, 0.25 + depth, z - 0.125),
+                 rightTip = skin.between(i, 0.94, 0.25 + depth, z - 0.125);
       const Vec3 thick{0, 0, 0.0469};
       const std::array<Ring, 2> rings{Ring{left + thick, leftTip + thick, leftTip, left},
                                       Ring{right + thick, rightTip + thick, rightTip, right}};
@@ -133,7 +134,8 @@ Part panes(const Palette& colour, const Skin& skin) {
   for (int s = 0; s < kStoreys; ++s)
     for (int i = 0; i < kPanels; ++i) {
       const double z = floorHeight(s);
-      addSheet(part, skin.at(i, 0.125, z), skin.at(i + 1, 0.125, z), skin.at(i + 1, 0.125, z + kStorey), skin.at(i, 0.125, z + kStorey));
+      addSheet(part, skin.at(i, 0.125, z), skin.at(i + 1, 0.125, z), skin.at(i + 1, 0.125, z + kStorey),
+               skin.at(i, 0.125, z + kStorey));
     }
   return part;
 }
@@ -158,7 +160,9 @@ Part core(const Palette& colour, const Skin& skin) {
                     if (isDoor(i, k)) return std::nullopt;
                     return colour.concrete;
                   },
-                  [&](int i, int j, int k) { return wall(i, scales[static_cast<std::size_t>(j)], heights[static_cast<std::size_t>(k)]); },
+                  [&](int i, int j, int k) {
+                    return wall(i, scales[static_cast<std::size_t>(j)], heights[static_cast<std::size_t>(k)]);
+                  },
                   true});
   addBox(part, {-6.0, -0.1563, 0.125}, {6.0, 0.1563, kRoof + 3.5});
   for (const double x : {-3.0, 3.0}) addBox(part, {x - 0.1406, -4.25, 0.0625}, {x + 0.1406, 4.25, kRoof + 3.25});
@@ -186,7 +190,8 @@ Part columns(const Palette& colour, const Skin& skin) {
   Part part("Columns", colour.light);
   for (int i = 0; i < kPanels; i += 6) {
     std::vector<Vec3> path;
-    for (int s = -1; s <= kStoreys; ++s) path.push_back(skin.at(i, -1.5, s < 0 ? 0.0 : floorHeight(s) - (s == kStoreys ? 0.125 : 0.0)));
+    for (int s = -1; s <= kStoreys; ++s)
+      path.push_back(skin.at(i, -1.5, s < 0 ? 0.0 : floorHeight(s) - (s == kStoreys ? 0.125 : 0.0)));
     addSweep(part, path, regular(8, 0.3438));
   }
   return part;
@@ -201,7 +206,8 @@ Part stairs(const Palette& colour) {
       const double low = floorHeight(s), half = 0.5 * kStorey;
       for (int flight = 0; flight < 2; ++flight)
         for (int i = 0; i < steps; ++i) {
-          const double run = 0.28125 * (flight == 0 ? i : steps - 1 - i), x = -1.4375 + run, z = low + half * flight + half * (i + 1) / steps;
+          const double run = 0.28125 * (flight == 0 ? i : steps - 1 - i), x = -1.4375 + run,
+                       z = low + half * flight + half * (i + 1) / steps;
           const double y = side * (flight == 0 ? 0.875 : 2.125);
           addBox(part, {x, y - 0.5, z - 0.1875}, {x + 0.25, y + 0.5, z});
         }
@@ -213,7 +219,8 @@ Part stairs(const Palette& colour) {
 Part crown(const Palette& colour, const Skin& skin) {
   Part part("Crown", colour.aluminium);
   for (int i = 0; i < kPanels; i += 2) {
-    const Vec3 foot = skin.at(i, -0.5, kRoof + 0.0), knee = skin.at(i, -0.5, kRoof + 4.0), tip = skin.at(i, -4.5, kRoof + 5.0);
+    const Vec3 foot = skin.at(i, -0.5, kRoof + 0.0), knee = skin.at(i, -0.5, kRoof + 4.0),
+               tip = skin.at(i, -4.5, kRoof + 5.0);
     addSweep(part, std::array{foot, knee, tip}, rectangle(0.125, 0.3125));
   }
   for (const double inset : {0.5, 1.5, 2.5, 3.5, 4.25})
@@ -243,9 +250,11 @@ Part podiumDeck(const Palette& colour) {
   Part part("Deck", colour.light);
   addBox(part, {-kPodiumHalfX, -kPodiumHalfY, kPodiumHeight - 0.5}, {kPodiumHalfX, kPodiumHalfY, kPodiumHeight});
   for (const double y : {-19.0, 17.5})
-    for (double x = -24.0; x < 24.0; x += 12.0) addBox(part, {x - 1.0, y - 1.0, kPodiumHeight - 0.125}, {x + 1.0, y + 2.5, kPodiumHeight + 0.5});
+    for (double x = -24.0; x < 24.0; x += 12.0)
+      addBox(part, {x - 1.0, y - 1.0, kPodiumHeight - 0.125}, {x + 1.0, y + 2.5, kPodiumHeight + 0.5});
   addBox(part, {-kPodiumHalfX - 3.0, -kPodiumHalfY - 3.0, 0.0}, {kPodiumHalfX + 3.0, kPodiumHalfY + 3.0, 0.1875});
-  addBox(part, {-kPodiumHalfX - 2.25, -kPodiumHalfY - 2.25, 0.09375}, {kPodiumHalfX + 2.25, kPodiumHalfY + 2.25, 0.375});
+  addBox(part, {-kPodiumHalfX - 2.25, -kPodiumHalfY - 2.25, 0.09375},
+         {kPodiumHalfX + 2.25, kPodiumHalfY + 2.25, 0.375});
   return part;
 }
 
@@ -262,9 +271,12 @@ void alongPodium(double spacing, const Make& make) {
   for (int turn = 0; turn < 4; ++turn) {
     const double half = turn % 2 == 0 ? kPodiumHalfX : kPodiumHalfY, out = turn % 2 == 0 ? kPodiumHalfY : kPodiumHalfX;
     const Mat4 frame = placed(Vec3(0.0), turn);
-    const auto at = [&](double along, double depth, double z) { return transformPoint(frame, Vec3(along, depth - out, z)); };
+    const auto at = [&](double along, double depth, double z) {
+      return transformPoint(frame, Vec3(along, depth - out, z));
+    };
     const int count = static_cast<int>(std::lround(2.0 * half / spacing));
-    for (int i = 0; i < count; ++i) make(at, -half + 2.0 * half * i / count, -half + 2.0 * half * (i + 1) / count, i == 0);
+    for (int i = 0; i < count; ++i)
+      make(at, -half + 2.0 * half * i / count, -half + 2.0 * half * (i + 1) / count, i == 0);
   }
 }
 
@@ -277,10 +289,12 @@ Part podiumFrame(const Palette& colour) {
     addBox(part, glm::min(p, q), glm::max(p, q));
   });
   for (const double x : {-kPodiumHalfX + 0.5, kPodiumHalfX - 0.5})
-    for (const double y : {-kPodiumHalfY + 0.5, kPodiumHalfY - 0.5}) addBeam(part, {x, y, 0.3125}, {x, y, kPodiumHeight - 0.3125}, 0.75);
+    for (const double y : {-kPodiumHalfY + 0.5, kPodiumHalfY - 0.5})
+      addBeam(part, {x, y, 0.3125}, {x, y, kPodiumHeight - 0.3125}, 0.75);
   for (const double z : {kPodiumHeight + 0.125, kPodiumHeight - 0.625}) {
     const double x = kPodiumHalfX - 0.25, y = kPodiumHalfY - 0.25;
-    addSweep(part, std::array{Vec3(-x, -y, z), Vec3(x, -y, z), Vec3(x, y, z), Vec3(-x, y, z)}, rectangle(0.75, 0.375), Ends::joined);
+    addSweep(part, std::array{Vec3(-x, -y, z), Vec3(x, -y, z), Vec3(x, y, z), Vec3(-x, y, z)}, rectangle(0.75, 0.375),
+             Ends::joined);
   }
   return part;
 }
@@ -288,7 +302,8 @@ Part podiumFrame(const Palette& colour) {
 Part podiumPanes(const Palette& colour) {
   Part part("Panes", colour.glass);
   alongPodium(2.0, [&](const auto& at, double a, double b, bool) {
-    addSheet(part, at(a, 0.8125, 0.375), at(b, 0.8125, 0.375), at(b, 0.8125, kPodiumHeight - 0.5), at(a, 0.8125, kPodiumHeight - 0.5));
+    addSheet(part, at(a, 0.8125, 0.375), at(b, 0.8125, 0.375), at(b, 0.8125, kPodiumHeight - 0.5),
+             at(a, 0.8125, kPodiumHeight - 0.5));
   });
   return part;
 }
@@ -301,7 +316,9 @@ Part railing(const Palette& colour) {
   });
   const double x = kPodiumHalfX - 0.3125, y = kPodiumHalfY - 0.3125;
   for (const double z : {0.5, 0.75, 1.0, 1.3125})
-    addSweep(part, std::array{Vec3(-x, -y, kPodiumHeight + z), Vec3(x, -y, kPodiumHeight + z), Vec3(x, y, kPodiumHeight + z), Vec3(-x, y, kPodiumHeight + z)},
+    addSweep(part,
+             std::array{Vec3(-x, -y, kPodiumHeight + z), Vec3(x, -y, kPodiumHeight + z), Vec3(x, y, kPodiumHeight + z),
+                        Vec3(-x, y, kPodiumHeight + z)},
              rectangle(z > 1.0 ? 0.125 : 0.0625, 0.0625), Ends::joined);
   return part;
 }
@@ -310,8 +327,9 @@ Part railing(const Palette& colour) {
 
 scene::Scene building() {
   SceneBuilder scene("building");
-  const Palette colour{scene.material("concrete", 0xaba69c), scene.material("concrete, light", 0xcfcac0), scene.material("aluminium", 0xc3ccd1),
-                       scene.material("bronze", 0x9c7f5c),   scene.material("glass", 0x8fb8cc, 0.4),      scene.material("stone", 0xd8cbb2),
+  const Palette colour{scene.material("concrete", 0xaba69c),   scene.material("concrete, light", 0xcfcac0),
+                       scene.material("aluminium", 0xc3ccd1),  scene.material("bronze", 0x9c7f5c),
+                       scene.material("glass", 0x8fb8cc, 0.4), scene.material("stone", 0xd8cbb2),
                        scene.material("dark steel", 0x565e64), scene.material("leaves", 0x769a55),
                        scene.material("bark", 0x6b523c)};
   const Skin skin(kPanels);
@@ -331,7 +349,8 @@ scene::Scene building() {
   scene.place("Podium", railing(colour));
   const std::uint32_t trees = scene.share(tree(colour));
   for (int i = 0; i < 8; ++i)
-    scene.place("Podium/Trees/Tree " + std::to_string(i + 1), trees, placed({-24.0 + 12.0 * (i % 4), i < 4 ? -18.0 : 18.5, kPodiumHeight + 0.375}, i));
+    scene.place("Podium/Trees/Tree " + std::to_string(i + 1), trees,
+                placed({-24.0 + 12.0 * (i % 4), i < 4 ? -18.0 : 18.5, kPodiumHeight + 0.375}, i));
   return std::move(scene).take();
 }
 

@@ -10,14 +10,14 @@
 namespace umbrage::samples::detail {
 namespace {
 
-constexpr double kStreet = 30.0;   // half side of the block
-constexpr double kCourt = 15.0;    // half side of the court
-constexpr double kTop = 20.0;      // parapet
-constexpr double kAttic = 19.25;   // roof terrace behind the parapet
-constexpr double kNiche = 0.375;   // depth of windows, and thickness of the parapet
-constexpr double kPitch = 3.75;    // window axes
+constexpr double kStreet = 30.0;  // half side of the block
+constexpr double kCourt = 15.0;   // half side of the court
+constexpr double kTop = 20.0;     // parapet
+constexpr double kAttic = 19.25;  // roof terrace behind the parapet
+constexpr double kNiche = 0.375;  // depth of windows, and thickness of the parapet
+constexpr double kPitch = 3.75;   // window axes
 constexpr double kHalfWindow = 0.625;
-constexpr double kDoor = 3.5;      // height of the portals
+constexpr double kDoor = 3.5;  // height of the portals
 
 struct Storey {
   double sill, lintel;
@@ -29,10 +29,12 @@ struct Palette {
 };
 
 Palette palette(SceneBuilder& scene) {
-  return {scene.material("plaster", 0xe9d9b8),     scene.material("stone", 0xb9b2a3), scene.material("tiles", 0xb5573a),
-          scene.material("wood", 0x7a5638),        scene.material("glass", 0x9fc3d8, 0.35), scene.material("iron", 0x4c5a5e),
-          scene.material("lawn", 0x8fae5d),        scene.material("leaves", 0x6d9648), scene.material("bark", 0x6b523c),
-          scene.material("awning", 0xd8604f, 0.8), scene.material("brick", 0xa3654c)};
+  return {scene.material("plaster", 0xe9d9b8),     scene.material("stone", 0xb9b2a3),
+          scene.material("tiles", 0xb5573a),       scene.material("wood", 0x7a5638),
+          scene.material("glass", 0x9fc3d8, 0.35), scene.material("iron", 0x4c5a5e),
+          scene.material("lawn", 0x8fae5d),        scene.material("leaves", 0x6d9648),
+          scene.material("bark", 0x6b523c),        scene.material("awning", 0xd8604f, 0.8),
+          scene.material("brick", 0xa3654c)};
 }
 
 bool between(double v, double low, double high) { return v > low && v < high; }
@@ -77,7 +79,8 @@ bool isWall(double x, double y, double z) {
 std::vector<double> planLines() {
   std::vector<double> lines;
   for (const double side : {-1.0, 1.0})
-    for (const double at : {kStreet, kStreet - kNiche, kStreet - 2.0, kCourt, kCourt + kNiche, kCourt + 2.0}) lines.push_back(side * at);
+    for (const double at : {kStreet, kStreet - kNiche, kStreet - 2.0, kCourt, kCourt + kNiche, kCourt + 2.0})
+      lines.push_back(side * at);
   for (double axis = -kStreet + kPitch / 2; axis < kStreet; axis += kPitch) {
     lines.push_back(axis - kHalfWindow);
     lines.push_back(axis + kHalfWindow);
@@ -126,7 +129,8 @@ Part panes(const Palette& colour) {
       for (const Storey& storey : kStoreys) {
         if (turn == 0 && storey.lintel <= kDoor && std::abs(axis) < kPitch) continue;
         const double l = axis - sense * kHalfWindow, r = axis + sense * kHalfWindow;
-        addSheet(part, at(l, depth, storey.sill), at(r, depth, storey.sill), at(r, depth, storey.lintel), at(l, depth, storey.lintel));
+        addSheet(part, at(l, depth, storey.sill), at(r, depth, storey.sill), at(r, depth, storey.lintel),
+                 at(l, depth, storey.lintel));
       }
   };
   onFourSides([&](const auto& at, int turn) {
@@ -201,8 +205,7 @@ Part chimneys(const Palette& colour) {
 Part doors(const Palette& colour) {
   Part part("Doors", colour.wood);
   for (const double y : {-kStreet + 1.5, -kCourt - 1.5})
-    for (const double x : {-1.0, 0.0625})
-      addBox(part, {x, y - 0.0625, 0.0}, {x + 0.9375, y + 0.0625, kDoor - 0.25});
+    for (const double x : {-1.0, 0.0625}) addBox(part, {x, y - 0.0625, 0.0}, {x + 0.9375, y + 0.0625, kDoor - 0.25});
   return part;
 }
 
@@ -217,7 +220,8 @@ Part tree(const Palette& colour) {
 
 Part kioskFrame(const Palette& colour) {
   Part part("Columns", colour.iron);
-  for (const Vec2& p : regular(8, 2.75)) addRevolved(part, {p, 0.375}, {{0, 0}, {0.0938, 0}, {0.0938, 2.625}, {0, 2.625}}, 8);
+  for (const Vec2& p : regular(8, 2.75))
+    addRevolved(part, {p, 0.375}, {{0, 0}, {0.0938, 0}, {0.0938, 2.625}, {0, 2.625}}, 8);
   std::vector<Vec3> ring;
   for (const Vec2& p : regular(8, 2.75)) ring.emplace_back(p, 3.0);
   addSweep(part, ring, rectangle(0.25, 0.25), Ends::joined);
@@ -239,8 +243,10 @@ Part benches(const Palette& colour) {
   Part part("Benches", colour.wood);
   onFourSides([&](const auto& at, int) {
     for (const double along : {-4.5, 4.5}) {
-      for (const double out : {9.0, 9.1875, 9.375}) addBeam(part, at(along - 1.0, out, 0.4375), at(along + 1.0, out, 0.4375), 0.125, 0.0625);
-      for (const double foot : {-0.75, 0.75}) addBeam(part, at(along + foot, 8.9375, 0.2031), at(along + foot, 9.4375, 0.2031), 0.125, 0.40625);
+      for (const double out : {9.0, 9.1875, 9.375})
+        addBeam(part, at(along - 1.0, out, 0.4375), at(along + 1.0, out, 0.4375), 0.125, 0.0625);
+      for (const double foot : {-0.75, 0.75})
+        addBeam(part, at(along + foot, 8.9375, 0.2031), at(along + foot, 9.4375, 0.2031), 0.125, 0.40625);
     }
   });
   return part;

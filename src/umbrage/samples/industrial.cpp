@@ -11,10 +11,18 @@ namespace {
 using namespace plant;
 
 Colours colours(SceneBuilder& scene) {
-  return {scene.material("concrete", 0xb8b4ab),      scene.material("cladding", 0xc9d2d6), scene.material("cladding, blue", 0x5f8fb0),
-          scene.material("steel", 0x6f7f88),         scene.material("tank white", 0xe6e4dc), scene.material("silo", 0xd6c9a4),
-          scene.material("brick", 0xa8604a),         scene.material("signal red", 0xc24a3a), scene.material("pipe silver", 0xbfc6c9),
-          scene.material("pipe yellow", 0xd9b043),   scene.material("pipe green", 0x6f9a6a), scene.material("glass", 0xa6c8d4, 0.45),
+  return {scene.material("concrete", 0xb8b4ab),
+          scene.material("cladding", 0xc9d2d6),
+          scene.material("cladding, blue", 0x5f8fb0),
+          scene.material("steel", 0x6f7f88),
+          scene.material("tank white", 0xe6e4dc),
+          scene.material("silo", 0xd6c9a4),
+          scene.material("brick", 0xa8604a),
+          scene.material("signal red", 0xc24a3a),
+          scene.material("pipe silver", 0xbfc6c9),
+          scene.material("pipe yellow", 0xd9b043),
+          scene.material("pipe green", 0x6f9a6a),
+          scene.material("glass", 0xa6c8d4, 0.45),
           scene.material("door", 0x4d6a7d)};
 }
 
@@ -47,7 +55,8 @@ void placeHalls(SceneBuilder& scene, const Colours& colour) {
 void placeSilos(SceneBuilder& scene, const Colours& colour) {
   const std::uint32_t one = scene.share(silo(colour));
   for (int i = 0; i < 4; ++i)
-    scene.place("Silos/Silo " + std::to_string(i + 1), one, placed({76.0 + 8.0 * (i % 2), 30.0 + 8.0 * (i / 2), 0.0}, i));
+    scene.place("Silos/Silo " + std::to_string(i + 1), one,
+                placed({76.0 + 8.0 * (i % 2), 30.0 + 8.0 * (i / 2), 0.0}, i));
 }
 
 void placeChimneys(SceneBuilder& scene, const Colours& colour) {

@@ -39,8 +39,10 @@ Part sawToothHall(const Colours& colour) {
   }
   addPrism(part, section, {0, kHalfDepth, 0}, {1, 0, 0}, {0, 0, 1}, {0, -2 * kHalfDepth, 0});
   part.use(colour.concrete);
-  const std::array<Vec3, 4> foot{Vec3{-kHalfLength, -kHalfDepth, 0.375}, {kHalfLength, -kHalfDepth, 0.375},
-                                 {kHalfLength, kHalfDepth, 0.375}, {-kHalfLength, kHalfDepth, 0.375}};
+  const std::array<Vec3, 4> foot{Vec3{-kHalfLength, -kHalfDepth, 0.375},
+                                 {kHalfLength, -kHalfDepth, 0.375},
+                                 {kHalfLength, kHalfDepth, 0.375},
+                                 {-kHalfLength, kHalfDepth, 0.375}};
   addSweep(part, foot, rectangle(0.375, 0.75), Ends::joined);
   part.use(colour.blue);
   for (const double y : {-kHalfDepth, kHalfDepth})
@@ -50,11 +52,11 @@ Part sawToothHall(const Colours& colour) {
     }
   part.use(colour.door);
   for (const double y : {-kHalfDepth, kHalfDepth})
-    for (const double x : {-18.75, 11.25})
-      addBox(part, {x - 2.25, y - 0.3125, 0}, {x + 2.25, y + 0.3125, 4.5});
+    for (const double x : {-18.75, 11.25}) addBox(part, {x - 2.25, y - 0.3125, 0}, {x + 2.25, y + 0.3125, 4.5});
   part.use(colour.steel);
   for (int i = 0; i < kTeeth; i += 2)
-    addRevolved(part, {-kHalfLength + (i + 0.625) * kBay, 6.0, kEaves}, {{0, 0}, {0.5, 0}, {0.5, 3.25}, {0.875, 3.25}, {0.875, 3.75}, {0, 4.125}}, 12);
+    addRevolved(part, {-kHalfLength + (i + 0.625) * kBay, 6.0, kEaves},
+                {{0, 0}, {0.5, 0}, {0.5, 3.25}, {0.875, 3.25}, {0.875, 3.75}, {0, 4.125}}, 12);
   return part;
 }
 
@@ -65,7 +67,8 @@ Part sawToothGlass(const Colours& colour) {
     const double left = -kHalfLength + i * kBay;
     const Vec3 foot{left + 0.1875, 0, kEaves + 0.9375}, head{left + 0.8125, 0, kEaves + 3.125};
     for (double y = -15.0; y < 15.0; y += 3.0)
-      addSheet(part, foot + Vec3(0, y + 2.75, 0), foot + Vec3(0, y + 0.25, 0), head + Vec3(0, y + 0.25, 0), head + Vec3(0, y + 2.75, 0));
+      addSheet(part, foot + Vec3(0, y + 2.75, 0), foot + Vec3(0, y + 0.25, 0), head + Vec3(0, y + 0.25, 0),
+               head + Vec3(0, y + 2.75, 0));
   }
   for (const double side : {-1.0, 1.0})
     for (int i = 0; i < kTeeth; ++i) {
@@ -85,7 +88,9 @@ Part conveyorTruss(const Colours& colour) {
     const double a = static_cast<double>(i) / kPanels, b = static_cast<double>(i + 1) / kPanels;
     for (const double across : {-kHalfWidth, kHalfWidth}) {
       addBeam(part, truss.at(a, across, -kHalfHeight), truss.at(a, across, kHalfHeight), 0.1563);
-      if (i < kPanels) addBeam(part, truss.at(a, across, i % 2 == 0 ? -kHalfHeight : kHalfHeight), truss.at(b, across, i % 2 == 0 ? kHalfHeight : -kHalfHeight), 0.125);
+      if (i < kPanels)
+        addBeam(part, truss.at(a, across, i % 2 == 0 ? -kHalfHeight : kHalfHeight),
+                truss.at(b, across, i % 2 == 0 ? kHalfHeight : -kHalfHeight), 0.125);
     }
     addBeam(part, truss.at(a, -kHalfWidth, -kHalfHeight), truss.at(a, kHalfWidth, -kHalfHeight), 0.1875);
     addBeam(part, truss.at(a, -kHalfWidth, kHalfHeight), truss.at(a, kHalfWidth, kHalfHeight), 0.1875);
@@ -94,7 +99,8 @@ Part conveyorTruss(const Colours& colour) {
     const Vec3 left = truss.at(along, -kHalfWidth, -kHalfHeight), right = truss.at(along, kHalfWidth, -kHalfHeight);
     const Vec3 spread = 1.25 * truss.side;
     const Vec3 leftFoot = Vec3(left.x, left.y, 0.25) - spread, rightFoot = Vec3(right.x, right.y, 0.25) + spread;
-    for (const Vec3& foot : {leftFoot, rightFoot}) addBox(part, foot - Vec3(0.5, 0.5, 0.25), foot + Vec3(0.5, 0.5, 0.125));
+    for (const Vec3& foot : {leftFoot, rightFoot})
+      addBox(part, foot - Vec3(0.5, 0.5, 0.25), foot + Vec3(0.5, 0.5, 0.125));
     addBeam(part, leftFoot, left, 0.375);
     addBeam(part, rightFoot, right, 0.375);
     for (int i = 0; i < 4; ++i) {

@@ -37,14 +37,23 @@ Outline halfCircle(double radius, double height, int steps) {
 
 Part tank(const Colours& colour) {
   Part part("Tank", colour.white);
-  const std::array<std::uint32_t, 7> bands{colour.concrete, colour.concrete, colour.concrete, colour.white, colour.blue, colour.white, colour.white};
+  const std::array<std::uint32_t, 7> bands{colour.concrete, colour.concrete, colour.concrete, colour.white,
+                                           colour.blue,     colour.white,    colour.white};
   addRevolved(part, {0, 0, 0},
-              {{0, 0}, {7.5, 0}, {7.5, 0.375}, {kTankRadius, 0.375}, {kTankRadius, 9.0}, {kTankRadius, 10.5}, {kTankRadius, kTankHeight}, {0, 13.75}}, 40,
-              Ends::closed, bands);
+              {{0, 0},
+               {7.5, 0},
+               {7.5, 0.375},
+               {kTankRadius, 0.375},
+               {kTankRadius, 9.0},
+               {kTankRadius, 10.5},
+               {kTankRadius, kTankHeight},
+               {0, 13.75}},
+              40, Ends::closed, bands);
   part.use(colour.steel);
   addSweep(part, circle(kTankRadius + 0.0625, kTankHeight - 0.125, 40), rectangle(0.25, 0.25), Ends::joined);
   addSweep(part, circle(kTankRadius - 0.25, kTankHeight + 1.125, 20), rectangle(0.0625, 0.0625), Ends::joined);
-  for (const Vec3& foot : circle(kTankRadius - 0.25, kTankHeight - 0.125, 20)) addBeam(part, foot, foot + Vec3(0, 0, 1.3125), 0.0938);
+  for (const Vec3& foot : circle(kTankRadius - 0.25, kTankHeight - 0.125, 20))
+    addBeam(part, foot, foot + Vec3(0, 0, 1.3125), 0.0938);
   addRevolved(part, {2.5, 0, kTankHeight + 0.75}, {{0, 0}, {0.375, 0}, {0.375, 1.0}, {0.5, 1.125}, {0, 1.375}}, 12);
   return part;
 }
@@ -87,16 +96,19 @@ Part gasSphere(const Colours& colour) {
     addBeam(part, b + Vec3(0, 0, 1.0) - out, a + Vec3(0, 0, 8.0) - out, 0.1563);
   }
   addSweep(part, circle(1.75, middle + radius + 0.875, 12), rectangle(0.0625, 0.0625), Ends::joined);
-  for (const Vec3& foot : circle(1.75, middle + radius - 0.375, 12)) addBeam(part, foot, foot + Vec3(0, 0, 1.25), 0.0625);
+  for (const Vec3& foot : circle(1.75, middle + radius - 0.375, 12))
+    addBeam(part, foot, foot + Vec3(0, 0, 1.25), 0.0625);
   addRevolved(part, {0, 0, 0}, {{0, 0}, {0.25, 0}, {0.25, middle - 7.0}, {0, middle - 7.0}}, 10);
   return part;
 }
 
 Part silo(const Colours& colour) {
   Part part("Silo", colour.silo);
-  addRevolved(part, {0, 0, 0}, {{0, 3.0}, {0.5, 3.0}, {3.5, 7.0}, {3.5, 22.0}, {1.0, 23.5}, {1.0, 24.0}, {0, 24.0}}, 32);
+  addRevolved(part, {0, 0, 0}, {{0, 3.0}, {0.5, 3.0}, {3.5, 7.0}, {3.5, 22.0}, {1.0, 23.5}, {1.0, 24.0}, {0, 24.0}},
+              32);
   part.use(colour.steel);
-  for (const double z : {8.0, 12.5, 17.0, 21.5}) addSweep(part, circle(3.5625, z, 32), rectangle(0.1875, 0.25), Ends::joined);
+  for (const double z : {8.0, 12.5, 17.0, 21.5})
+    addSweep(part, circle(3.5625, z, 32), rectangle(0.1875, 0.25), Ends::joined);
   for (const Vec3& foot : circle(3.25, 0.0, 8)) addBeam(part, foot, foot + Vec3(0, 0, 7.25), 0.375);
   part.use(colour.concrete);
   addBox(part, {-3.875, -3.875, 0}, {3.875, 3.875, 0.25});

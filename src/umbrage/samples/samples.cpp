@@ -14,9 +14,11 @@ struct Sample {
 };
 
 constexpr std::array<Sample, 4> kSamples{{
-    {{"courtyard", "A perimeter block around a court of 30 m with walls of 20 m, a kiosk and trees in it."}, detail::courtyard},
+    {{"courtyard", "A perimeter block around a court of 30 m with walls of 20 m, a kiosk and trees in it."},
+     detail::courtyard},
     {{"tower", "A wrought-iron lattice tower of 300 m with curved legs: thousands of thin struts."}, detail::tower},
-    {{"industrial", "An industrial site: halls, tanks, spheres, pipe racks, chimneys, a conveyor."}, detail::industrial},
+    {{"industrial", "An industrial site: halls, tanks, spheres, pipe racks, chimneys, a conveyor."},
+     detail::industrial},
     {{"building", "An office tower of about 180,000 triangles: facade grid, slabs, concrete core."}, detail::building},
 }};
 

@@ -88,12 +88,37 @@ struct Expected {
 const std::map<std::string, Expected>& expectations() {
   static const std::map<std::string, Expected> all{
       {"courtyard",
-       {20000, 30000, {-30.625, -30.625, 0}, {30.625, 30.625, 23.375}, 14850130477548263100ull, {"Block/Windows/Panes", "Court/Kiosk/Roof"}, {}}},
-      {"tower", {40000, 60000, {-64.6318359375, -64.6318359375, 0}, {64.6318359375, 64.6318359375, 300}, 9924093441426563525ull, {"Tower/Platforms/Glass"}, {}}},
+       {20000,
+        30000,
+        {-30.625, -30.625, 0},
+        {30.625, 30.625, 23.375},
+        14850130477548263100ull,
+        {"Block/Windows/Panes", "Court/Kiosk/Roof"},
+        {}}},
+      {"tower",
+       {40000,
+        60000,
+        {-64.6318359375, -64.6318359375, 0},
+        {64.6318359375, 64.6318359375, 300},
+        9924093441426563525ull,
+        {"Tower/Platforms/Glass"},
+        {}}},
       {"industrial",
-       {13000, 60000, {-90.1875, -54, 0}, {90, 51, 62}, 12066468710241926109ull,
-        {"Halls/Hall 1/Glazing", "Halls/Hall 2/Glazing", "Cooling towers/Shell"}, {"Yard/Containers"}}},
-      {"building", {175000, 185000, {-37, -27, 0}, {37, 27, 109}, 16187422567190618673ull, {"Tower/Facade/Panes", "Podium/Facade/Panes"}, {}}}};
+       {13000,
+        60000,
+        {-90.1875, -54, 0},
+        {90, 51, 62},
+        12066468710241926109ull,
+        {"Halls/Hall 1/Glazing", "Halls/Hall 2/Glazing", "Cooling towers/Shell"},
+        {"Yard/Containers"}}},
+      {"building",
+       {175000,
+        185000,
+        {-37, -27, 0},
+        {37, 27, 109},
+        16187422567190618673ull,
+        {"Tower/Facade/Panes", "Podium/Facade/Panes"},
+        {}}}};
   return all;
 }
 
@@ -142,7 +167,8 @@ TEST_P(EverySample, StandsOnTheLatticeOfSinglePrecision) {
 TEST_P(EverySample, HasNoTriangleWithoutArea) {
   for (const auto& m : scene().meshes)
     for (const auto& [a, b, c] : m->triangles)
-      ASSERT_GT(glm::length(glm::cross(m->positions[b] - m->positions[a], m->positions[c] - m->positions[a])), 0.0) << m->name;
+      ASSERT_GT(glm::length(glm::cross(m->positions[b] - m->positions[a], m->positions[c] - m->positions[a])), 0.0)
+          << m->name;
 }
 
 TEST_P(EverySample, IsClosedWhereItSaysSo) {
@@ -154,7 +180,9 @@ TEST_P(EverySample, IsClosedWhereItSaysSo) {
     EXPECT_EQ(report.windingFlips, 0u) << i.name;
     if (report.topology == mesh::Topology::open) open.insert(i.name);
     if (report.topology == mesh::Topology::nonManifold) nonManifold.insert(i.name);
-    if (report.topology != mesh::Topology::open) { EXPECT_GT(smallestVolume(m), 0.0) << i.name << " is wound inwards somewhere"; }
+    if (report.topology != mesh::Topology::open) {
+      EXPECT_GT(smallestVolume(m), 0.0) << i.name << " is wound inwards somewhere";
+    }
   }
   EXPECT_EQ(open, expected().open);
   EXPECT_EQ(nonManifold, expected().nonManifold);
@@ -172,9 +200,8 @@ struct Flat {
 bool noEdgeSeparates(const Flat& a, const Flat& b) {
   for (std::size_t i = 0; i < 3; ++i) {
     const auto &p = a.at[i], &q = a.at[(i + 1) % 3];
-    if (std::all_of(b.at.begin(), b.at.end(), [&](const auto& r) {
-          return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]) <= 0;
-        }))
+    if (std::all_of(b.at.begin(), b.at.end(),
+                    [&](const auto& r) { return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]) <= 0; }))
       return false;
   }
   return true;
@@ -188,8 +215,8 @@ std::map<std::array<std::int64_t, 4>, std::vector<Flat>> byPlane(const scene::Sc
       std::array<Lattice, 3> p{};
       for (std::size_t k = 0; k < 3; ++k)
         for (int axis = 0; axis < 3; ++axis)
-          p[k][static_cast<std::size_t>(axis)] = std::llround(
-              4096.0 * transformPoint(instance.toWorld, s.meshes[instance.mesh]->positions[t[k]])[axis]);
+          p[k][static_cast<std::size_t>(axis)] =
+              std::llround(4096.0 * transformPoint(instance.toWorld, s.meshes[instance.mesh]->positions[t[k]])[axis]);
       Lattice n{};
       for (std::size_t a = 0; a < 3; ++a) {
         const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
@@ -215,8 +242,9 @@ TEST_P(EverySample, HasNoFacesUponEachOther) {
     for (std::size_t i = 0; i < flats.size(); ++i)
       for (std::size_t j = i + 1; j < flats.size(); ++j)
         if (noEdgeSeparates(flats[i], flats[j]) && noEdgeSeparates(flats[j], flats[i]))
-          ADD_FAILURE() << flats[i].part << " and " << flats[j].part << " in the plane " << plane[0] << ' ' << plane[1] << ' '
-                        << plane[2] << ' ' << plane[3] << " near " << static_cast<double>(flats[i].at[0][0]) / 4096 << ' '
+          ADD_FAILURE() << flats[i].part << " and " << flats[j].part << " in the plane " << plane[0] << ' ' << plane[1]
+                        << ' ' << plane[2] << ' ' << plane[3] << " near "
+                        << static_cast<double>(flats[i].at[0][0]) / 4096 << ' '
                         << static_cast<double>(flats[i].at[0][1]) / 4096;
   }
 }
@@ -250,8 +278,9 @@ TEST(Building, PatternsChooseFacadeAndConcrete) {
       if (i.casts) names.insert(i.name);
     return names;
   };
-  EXPECT_THAT(casting("*Facade*"), testing::UnorderedElementsAre("Tower/Facade/Mullions", "Tower/Facade/Transoms", "Tower/Facade/Fins",
-                                                                "Tower/Facade/Panes", "Podium/Facade/Frame", "Podium/Facade/Panes"));
+  EXPECT_THAT(casting("*Facade*"),
+              testing::UnorderedElementsAre("Tower/Facade/Mullions", "Tower/Facade/Transoms", "Tower/Facade/Fins",
+                                            "Tower/Facade/Panes", "Podium/Facade/Frame", "Podium/Facade/Panes"));
   EXPECT_THAT(casting("*Concrete*"),
               testing::UnorderedElementsAre("Tower/Concrete/Core", "Tower/Concrete/Slabs", "Tower/Concrete/Columns",
                                             "Tower/Concrete/Stairs", "Podium/Concrete/Deck"));
@@ -284,7 +313,8 @@ TEST(Courtyard, TheBlockHidesWhatItsFourWallsHide) {
     bool found = false;
     for (std::uint32_t t = 0; t < surfaces.triangles.size() && !found; ++t)
       found = meets(from, way, surfaces.corner(t, 0), surfaces.corner(t, 1), surfaces.corner(t, 2));
-    ASSERT_EQ(found, wanted) << "from " << from.x << ' ' << from.y << " towards " << way.x << ' ' << way.y << ' ' << way.z;
+    ASSERT_EQ(found, wanted) << "from " << from.x << ' ' << from.y << " towards " << way.x << ' ' << way.y << ' '
+                             << way.z;
     hidden += found ? 1 : 0;
   }
   EXPECT_GT(hidden, tried / 5);

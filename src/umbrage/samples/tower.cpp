@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kFirst = 57.0, kSecond = 115.0, kThird = 276.0;
 /// Half the width over the height, outside and inside of the legs.
-constexpr std::array<Vec2, 7> kOuter{{{0, 62.0}, {28, 46.5}, {57, 34.5}, {86, 25.75}, {115, 19.0}, {190, 9.0}, {276, 4.5}}};
+constexpr std::array<Vec2, 7> kOuter{
+    {{0, 62.0}, {28, 46.5}, {57, 34.5}, {86, 25.75}, {115, 19.0}, {190, 9.0}, {276, 4.5}}};
 constexpr std::array<Vec2, 5> kInner{{{0, 37.0}, {28, 26.0}, {57, 18.0}, {86, 12.0}, {115, 8.0}}};
 
 double outer(double z) { return interpolate(kOuter, z); }
@@ -81,7 +82,8 @@ Part leg(const Palette& colour, const std::string& name, double sx, double sy) {
   const std::array<Vec3, 4> normals{Vec3(0, sy, 0), Vec3(-sx, 0, 0), Vec3(0, -sy, 0), Vec3(sx, 0, 0)};
   for (const Edge& chord : chords) addSweep(part, chord, rectangle(0.9375, 0.9375));
   part.use(colour.light);
-  for (std::size_t f = 0; f < 4; ++f) brace(part, chords[f], chords[(f + 1) % 4], normals[f], 0.3125, f % 2 == 0 ? 0.0 : 0.0469);
+  for (std::size_t f = 0; f < 4; ++f)
+    brace(part, chords[f], chords[(f + 1) % 4], normals[f], 0.3125, f % 2 == 0 ? 0.0 : 0.0469);
   return part;
 }
 
@@ -97,7 +99,8 @@ Part shaft(const Palette& colour) {
   const std::array<Vec3, 4> normals{Vec3(0, 1, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0), Vec3(1, 0, 0)};
   for (const Edge& chord : chords) addSweep(part, chord, rectangle(0.8125, 0.8125));
   part.use(colour.light);
-  for (std::size_t f = 0; f < 4; ++f) brace(part, chords[f], chords[(f + 1) % 4], normals[f], 0.25, f % 2 == 0 ? 0.0 : 0.0469);
+  for (std::size_t f = 0; f < 4; ++f)
+    brace(part, chords[f], chords[(f + 1) % 4], normals[f], 0.25, f % 2 == 0 ? 0.0 : 0.0469);
   return part;
 }
 
@@ -160,9 +163,12 @@ void platform(Part& part, const Palette& colour, double z, double half, double h
   const int posts = static_cast<int>(std::lround(2.0 * half / 2.5));
   for (int turn = 0; turn < 4; ++turn) {
     const Mat4 frame = placed(Vec3(0.0), turn);
-    const auto at = [&](double along, double out, double height) { return transformPoint(frame, Vec3(along, -out, height)); };
+    const auto at = [&](double along, double out, double height) {
+      return transformPoint(frame, Vec3(along, -out, height));
+    };
     for (int i = 0; i < posts; ++i) {
-      const double a = -half + 0.25 + (2.0 * half - 0.5) * i / posts, b = -half + 0.25 + (2.0 * half - 0.5) * (i + 1) / posts;
+      const double a = -half + 0.25 + (2.0 * half - 0.5) * i / posts,
+                   b = -half + 0.25 + (2.0 * half - 0.5) * (i + 1) / posts;
       const double f = (half - 1.0) / (half - 0.25);
       part.use(colour.iron);
       addBeam(part, at(a, half - 0.25, z + 0.125), at(a, half - 0.25, z + 1.25), 0.0938);
@@ -203,7 +209,8 @@ Part glass(const Palette& colour) {
     const Mat4 frame = placed(Vec3(0.0), turn);
     const auto at = [&](double x, double y, double z) { return transformPoint(frame, Vec3(x, y, z)); };
     for (double x = -12.25; x < 12.0; x += 5.0)
-      addSheet(part, at(x, -26.5, kFirst + 0.5), at(x + 4.5, -26.5, kFirst + 0.5), at(x + 4.5, -26.5, kFirst + 3.875), at(x, -26.5, kFirst + 3.875));
+      addSheet(part, at(x, -26.5, kFirst + 0.5), at(x + 4.5, -26.5, kFirst + 0.5), at(x + 4.5, -26.5, kFirst + 3.875),
+               at(x, -26.5, kFirst + 3.875));
   }
   return part;
 }
@@ -212,11 +219,14 @@ Part glass(const Palette& colour) {
 Part top(const Palette& colour) {
   Part part("Lantern", colour.light);
   for (const Vec2& p : regular(8, 4.5)) addBeam(part, {p, kThird}, {0.85 * p, kThird + 6.25}, 0.3125);
-  addRevolved(part, {0, 0, kThird + 6.0}, {{0, 0}, {5.0, 0}, {5.0, 0.5}, {3.5, 2.75}, {1.75, 4.25}, {1.25, 4.5}, {1.25, 7.5}, {0.625, 8.5}, {0, 8.5}}, 16);
+  addRevolved(
+      part, {0, 0, kThird + 6.0},
+      {{0, 0}, {5.0, 0}, {5.0, 0.5}, {3.5, 2.75}, {1.75, 4.25}, {1.25, 4.5}, {1.25, 7.5}, {0.625, 8.5}, {0, 8.5}}, 16);
   part.use(colour.iron);
   addRevolved(part, {0, 0, kThird + 14.0}, {{0, 0}, {0.5, 0}, {0.3125, 4.0}, {0.1875, 10.0}, {0, 10.0}}, 8);
   for (const double z : {280.0, 284.0})
-    for (const double s : {-1.0, 1.0}) addBeam(part, {-1.5 * s, 0.0, z + 12.0 + s}, {1.5 * s, 0.25, z + 12.0 + s}, 0.125);
+    for (const double s : {-1.0, 1.0})
+      addBeam(part, {-1.5 * s, 0.0, z + 12.0 + s}, {1.5 * s, 0.25, z + 12.0 + s}, 0.125);
   return part;
 }
 
@@ -234,8 +244,9 @@ Part bases(const Palette& colour) {
 
 scene::Scene tower() {
   SceneBuilder scene("tower");
-  const Palette colour{scene.material("iron", 0x7d6248), scene.material("iron, light", 0x937655), scene.material("deck", 0x8d8578),
-                       scene.material("stone", 0xc4b8a2), scene.material("glass", 0xa9cbd9, 0.4)};
+  const Palette colour{scene.material("iron", 0x7d6248), scene.material("iron, light", 0x937655),
+                       scene.material("deck", 0x8d8578), scene.material("stone", 0xc4b8a2),
+                       scene.material("glass", 0xa9cbd9, 0.4)};
   scene.place("Tower/Legs", leg(colour, "North-east", 1, 1));
   scene.place("Tower/Legs", leg(colour, "North-west", -1, 1));
   scene.place("Tower/Legs", leg(colour, "South-west", -1, -1));

@@ -17,7 +17,8 @@ struct Colours {
 [[nodiscard]] Part bund(const Colours& colour, const Vec2& min, const Vec2& max);
 [[nodiscard]] Part gasSphere(const Colours& colour);
 [[nodiscard]] Part silo(const Colours& colour);
-[[nodiscard]] Part chimney(const Colours& colour, const std::string& name, const Vec3& at, double height, double radius);
+[[nodiscard]] Part chimney(const Colours& colour, const std::string& name, const Vec3& at, double height,
+                           double radius);
 [[nodiscard]] Part coolingShell(const Colours& colour, const Vec3& at);
 [[nodiscard]] Part coolingBase(const Colours& colour, const Vec3& at);
 

@@ -14,7 +14,9 @@ namespace {
 
 using Triple = std::array<std::size_t, 3>;
 
-double turn(const Vec2& a, const Vec2& b, const Vec2& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
 
 bool isEar(const std::vector<Vec2>& p, const std::vector<std::size_t>& rest, std::size_t at) {
   const std::size_t n = rest.size();
@@ -45,10 +47,21 @@ std::vector<Triple> triangulate(const std::vector<Vec2>& outline) {
 
 Sphere icosphere(int subdivisions) {
   const double g = std::numbers::phi;
-  Sphere s{{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-            {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}},
-           {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-            {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}}};
+  Sphere s{{{-1, g, 0},
+            {1, g, 0},
+            {-1, -g, 0},
+            {1, -g, 0},
+            {0, -1, g},
+            {0, 1, g},
+            {0, -1, -g},
+            {0, 1, -g},
+            {g, 0, -1},
+            {g, 0, 1},
+            {-g, 0, -1},
+            {-g, 0, 1}},
+           {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+            {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+            {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
   for (Vec3& p : s.points) p = glm::normalize(p);
   for (int level = 0; level < subdivisions; ++level) {
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> middles;

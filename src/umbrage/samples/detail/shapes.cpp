@@ -155,7 +155,8 @@ void addBlob(Part& part, const Vec3& centre, const Vec3& radii, int subdivisions
   const Sphere ball = icosphere(subdivisions);
   Corners corners;
   for (const Vec3& p : ball.points) {
-    const double lump = 1.0 + bumps * (std::sin(5.0 * p.x + 1.0) * std::sin(6.0 * p.y + 2.0) + std::sin(7.0 * p.z + 4.0 * p.x));
+    const double lump =
+        1.0 + bumps * (std::sin(5.0 * p.x + 1.0) * std::sin(6.0 * p.y + 2.0) + std::sin(7.0 * p.z + 4.0 * p.x));
     corners.push_back(part.corner(centre + radii * p * lump));
   }
   for (const auto& [a, b, c] : ball.triangles) part.triangle(corners[a], corners[b], corners[c]);
@@ -201,7 +202,8 @@ void addCells(Part& part, const Cells& cells) {
         for (int axis = 0; axis < 3; ++axis)
           for (int end = 0; end < 2; ++end) {
             const int step = end == 0 ? -1 : 1;
-            if (!filled(i + (axis == 0) * step, j + (axis == 1) * step, k + (axis == 2) * step)) face(i, j, k, axis, end);
+            if (!filled(i + (axis == 0) * step, j + (axis == 1) * step, k + (axis == 2) * step))
+              face(i, j, k, axis, end);
           }
       }
 }
@@ -220,8 +222,8 @@ double interpolate(std::span<const Vec2> table, double key) {
   while (i + 2 < n && key > table[i + 1].x) ++i;
   const double width = table[i + 1].x - table[i].x, t = std::clamp((key - table[i].x) / width, 0.0, 1.0);
   const double t2 = t * t, t3 = t2 * t;
-  return (2 * t3 - 3 * t2 + 1) * table[i].y + (t3 - 2 * t2 + t) * width * tangent(i) + (3 * t2 - 2 * t3) * table[i + 1].y +
-         (t3 - t2) * width * tangent(i + 1);
+  return (2 * t3 - 3 * t2 + 1) * table[i].y + (t3 - 2 * t2 + t) * width * tangent(i) +
+         (3 * t2 - 2 * t3) * table[i + 1].y + (t3 - t2) * width * tangent(i + 1);
 }
 
 std::vector<double> sortedLines(std::vector<double> lines) {
