@@ -22,8 +22,8 @@ namespace umbrage::io {
 /// 4. Colour, opacity and the names of materials are kept (sRGB in .iv, .obj and CityJSON; linear in .glb).
 /// 5. CityJSON: top levels are Buildings, what is below them BuildingParts; a part whose pieces are all closed and wound outwards
 ///    is one Solid for each piece, any other a MultiSurface.
-/// 6. loadScene gives the names back as they were, but: .iv has only letters, digits and '_' in names; .obj has '_' for '/' and
-///    blanks; CityJSON numbers levels whose name is taken ("Body (2)").
+/// 6. loadScene gives the names of parts back as they were, but: .obj has '_' for '/' and blanks; CityJSON numbers levels whose
+///    name is taken ("Body (2)"). In .iv the names that other readers see have only letters, digits and '_'; materials too.
 /// Errors: usage (unknown extension), input (a scene with a fault), output (cannot be written, or more than 4 GiB of .glb).
 /// CAVEAT: lights are not written. `casts` is kept only as a remark in .glb and CityJSON, northOffset only in .glb.
 [[nodiscard]] Result<void> writeScene(const scene::Scene& scene, const std::filesystem::path& path);

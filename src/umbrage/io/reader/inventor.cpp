@@ -9,6 +9,8 @@
 #include <Inventor/actions/SoCallbackAction.h>
 #include <Inventor/elements/SoLazyElement.h>
 #include <Inventor/nodes/SoDirectionalLight.h>
+#include <Inventor/nodes/SoGroup.h>
+#include <Inventor/nodes/SoInfo.h>
 #include <Inventor/nodes/SoMaterial.h>
 #include <Inventor/nodes/SoPointLight.h>
 #include <Inventor/nodes/SoShape.h>
@@ -16,6 +18,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 #include <tuple>
 
 #include "umbrage/io/reader/inventor_check.hpp"
@@ -24,6 +27,8 @@
 
 namespace umbrage::io::reader {
 namespace {
+
+constexpr std::string_view kNameRemark = "name: ";
 
 Vec3 vectorOf(const SbVec3f& v) { return {v[0], v[1], v[2]}; }
 Vec3 colourOf(const SbColor& c) { return linearFromSrgb({c[0], c[1], c[2]}); }
@@ -36,10 +41,22 @@ Mat4 matrixOf(const SbMatrix& given) {
   return m;
 }
 
+// The node's name, or the one that its first child, an Info "name: ..", gives it in full: Inventor's own names have no blanks.
+std::string levelName(const SoNode* node) {
+  if (node->isOfType(SoGroup::getClassTypeId())) {
+    const auto* group = static_cast<const SoGroup*>(node);
+    if (group->getNumChildren() > 0 && group->getChild(0)->isOfType(SoInfo::getClassTypeId())) {
+      const std::string text = static_cast<const SoInfo*>(group->getChild(0))->string.getValue().getString();
+      if (text.starts_with(kNameRemark)) return text.substr(kNameRemark.size());
+    }
+  }
+  return node->getName().getString();
+}
+
 std::string pathOf(const SoPath* path, const SoNode* leaf) {
   const auto* full = static_cast<const SoFullPath*>(path);  // inside node kits too
   std::string name;
-  for (int i = 0; i < full->getLength(); ++i) name = childPath(name, full->getNode(i)->getName().getString());
+  for (int i = 0; i < full->getLength(); ++i) name = childPath(name, levelName(full->getNode(i)));
   return name.empty() ? leaf->getTypeId().getName().getString() : name;
 }
 

@@ -62,6 +62,7 @@ class InventorWriter {
   void line(std::string_view text);
   void open(std::string_view text);
   void close(std::string_view text = "}");
+  void openLevel(const std::string& name);
   void addMatrix(const Mat4& m);
   void addPalette();
   void addMaterials(const std::vector<std::uint32_t>& materials);
@@ -87,6 +88,12 @@ void InventorWriter::open(std::string_view text) {
 void InventorWriter::close(std::string_view text) {
   --depth_;
   line(text);
+}
+
+/// A name that Inventor cannot hold stands inside as a remark, which this project's reader takes instead.
+void InventorWriter::openLevel(const std::string& name) {
+  open("DEF " + identifier(name) + " Separator {");
+  if (identifier(name) != name) line("Info { string " + quoted("name: " + name) + " }");
 }
 
 /// Inventor multiplies row vectors from the left, so its rows are our columns.
@@ -120,7 +127,7 @@ void InventorWriter::addMaterials(const std::vector<std::uint32_t>& materials) {
 void InventorWriter::addLevel(const Level& level) {
   for (const auto& [name, instance] : level.parts) addPart(name, *instance);
   for (const auto& [name, group] : level.groups) {
-    open("DEF " + identifier(name) + " Separator {");
+    openLevel(name);
     addLevel(group);
     close();
   }
@@ -129,8 +136,7 @@ void InventorWriter::addLevel(const Level& level) {
 void InventorWriter::addPart(const std::string& name, const scene::Instance& instance) {
   const mesh::Mesh& m = *scene_.meshes[instance.mesh];
   if (m.triangles.empty()) return;
-  open("DEF " + identifier(name) + " Separator {");
-  if (identifier(name) != name) line("Info { string " + quoted(instance.name) + " }");
+  openLevel(name);
   const bool known = defined_.contains(instance.mesh);
   SinglePrecision single;
   if (!known) {
