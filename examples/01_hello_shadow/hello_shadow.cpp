@@ -1,36 +1,41 @@
-// The shortest way from triangles to a picture with exact shadows: a box on the ground in the sun.
+// The shortest way from triangles to a picture with exact shadows: a hamlet in the afternoon sun.
 //   hello_shadow [OUT.png]
 #include <umbrage/png/png.hpp>
 #include <umbrage/shadow/composite.hpp>
-#include <umbrage/shadow/technique.hpp>
 #include <umbrage/techniques/cpu/registry.hpp>
 
 #include <cstdio>
+#include <glm/gtc/matrix_transform.hpp>
 #include <memory>
-#include <vector>
 
 using namespace umbrage;
 
 // A scene is meshes, placed as instances, in the caller's own coordinates; here Z is up.
-scene::Scene boxOnTheGround() {
-  mesh::Mesh box;
-  for (int i = 0; i < 8; ++i) box.positions.push_back(Vec3(i & 1, i >> 1 & 1, i >> 2 & 1) * Vec3(4, 3, 2));
-  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  scene::Scene scene;
-  scene.up = scene::UpAxis::z;
-  scene.meshes = {std::make_shared<const mesh::Mesh>(box)};
-  scene.materials = {{.name = "clay", .colour = {0.75, 0.45, 0.3}}};
-  scene.instances = {{.name = "box"}};
+scene::Scene hamlet() {
+  mesh::Mesh house{.name = "house"};
+  house.positions = {{-2, -3, 0}, {2, -3, 0}, {2, 3, 0},  {-2, 3, 0}, {-2, -3, 3},
+                     {2, -3, 3},  {2, 3, 3},  {-2, 3, 3}, {0, -3, 5}, {0, 3, 5}};
+  house.triangles = {
+      {0, 1, 5}, {0, 5, 4}, {4, 5, 8}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {6, 7, 9},   // walls
+      {3, 0, 4}, {3, 4, 7}, {0, 2, 1}, {0, 3, 2}, {5, 6, 9}, {5, 9, 8}, {7, 4, 8}, {7, 8, 9}};  // and roof
+  house.materials = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1};
+
+  scene::Scene scene{.up = scene::UpAxis::z};
+  scene.meshes = {std::make_shared<const mesh::Mesh>(house)};
+  scene.materials = {{.name = "plaster", .colour = {0.8, 0.72, 0.58}}, {.name = "tiles", .colour = {0.55, 0.16, 0.09}}};
+  for (int i = 0; i < 7; ++i) {
+    const Mat4 turned = glm::rotate(Mat4(1.0), 0.85 * i, Vec3(0, 0, 1));
+    scene.instances.push_back({.name = "house", .toWorld = glm::translate(turned, Vec3(11, 0, 0))});
+  }
   return scene::withGround(scene);
 }
 
 Result<void> draw(const char* path) {
-  const scene::Scene scene = boxOnTheGround();
-  const scene::Camera camera = {.eye = {-4.5, -6, 5}, .target = {0.6, 1.2, 0.5}, .width = 640, .height = 400};
-  const std::vector<scene::Light> lights = {{.shape = scene::DirectionalLight{{-1, 0.35, -0.8}}}};
+  const scene::Scene scene = hamlet();
+  const scene::Camera camera{.eye = {-24, -11, 14}, .target = {0, -0.5, 1}, .width = 960, .height = 540};
+  const std::vector<scene::Light> lights{{.shape = scene::DirectionalLight{{-0.3, 1, -0.75}}}};
 
-  // Any technique of any registry is used in the same way; all make the same mask.
+  // Every technique of every registry is used in this way; all make the same mask.
   auto technique = techniques::cpuTechniques().front().create();
   if (!technique) return tl::unexpected(technique.error());
   const auto geometry = shadow::makeGeometry(scene);
@@ -38,8 +43,8 @@ Result<void> draw(const char* path) {
   const auto shading = (*technique)->shade({camera, lights});
   if (!shading) return tl::unexpected(shading.error());
 
-  const auto picture = shadow::composite(scene, geometry->surfaces, camera, shading->surface, lights, shading->masks);
-  return png::write(path, picture);
+  return png::write(path,
+                    shadow::composite(scene, geometry->surfaces, camera, shading->surface, lights, shading->masks));
 }
 
 int main(int count, char** words) {
@@ -48,6 +53,5 @@ int main(int count, char** words) {
     std::fprintf(stderr, "error: %s\n", done.error().text().c_str());
     return exitCode(done.error().code);
   }
-  std::printf("%s\n", path);
-  return 0;
+  std::puts(path);
 }
