@@ -30,12 +30,17 @@ class PhaseClock {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-std::string reasonFor(Counting counting, const shadow::LightStats& stats) {
-  if (counting == Counting::zFail) return "right for every eye and every caster";
-  if (stats.castersByZFail > 0)
-    return std::to_string(stats.castersByZFail) + " casters by z-fail: the eye touches a side of their shadow volumes";
-  if (stats.eyeCount != 0) return "no caps: the eye is inside " + std::to_string(stats.eyeCount) + " shadow volumes, which is counted";
-  return "no caps: the eye is outside all shadow volumes";
+std::string reasonFor(Counting counting, const shadow::LightStats& stats, std::size_t groups) {
+  std::string text = "no caps needed; the eye is outside all shadow volumes";
+  if (counting == Counting::zFail)
+    text = "right for every eye and every caster";
+  else if (stats.castersByZFail > 0)
+    text = std::to_string(stats.castersByZFail) + " casters by z-fail, since the eye touches a side of their shadow volumes";
+  else if (stats.eyeCount != 0)
+    text = "no caps needed; the eye is inside " + std::to_string(stats.eyeCount) + " shadow volumes, which is counted";
+  if (groups > 1)
+    text += "; in " + std::to_string(groups) + " groups, since more casters may lie behind each other than 8 bits count";
+  return text;
 }
 
 std::vector<Vec4f> coloursOf(std::span<const scene::Material> materials) {
@@ -167,7 +172,7 @@ class StencilTechnique final : public GlTechnique {
     const Vec3& origin = geometry_->surfaces.origin;
     const Vec4 homogeneous = scene::homogeneous(light, origin);
     const LightVolume volume = prepareVolume(casters, homogeneous, view.eye - origin, counting_, stats, ended);
-    stats.reason = reasonFor(counting_, stats);
+    stats.reason = reasonFor(counting_, stats, volume.groups.size());
     const auto facing = packBits(
         shadow::visibleSideFacesLight(geometry_->surfaces, Vec4(view.eye - origin, 1.0), homogeneous));
     if (ended) ended("facing");

@@ -137,14 +137,21 @@ class ParallelView {
   double scale_ = 1.0;
 };
 
+// A triangle, cut by up to four planes.
+struct Cut {
+  std::array<Vec3, 8> corners;
+  int size = 0;
+  void add(const Vec3& p) { corners[size++] = p; }
+};
+
 // The part of a polygon in front of a plane through the light.
-std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, const Vec3& inward) {
-  std::vector<Vec3> kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+Cut clipped(const Cut& polygon, const Vec3& inward) {
+  Cut kept;
+  for (int i = 0; i < polygon.size; ++i) {
+    const Vec3 &a = polygon.corners[i], &b = polygon.corners[i + 1 < polygon.size ? i + 1 : 0];
     const double da = glm::dot(inward, a), db = glm::dot(inward, b);
-    if (da >= 0.0) kept.push_back(a);
-    if ((da > 0.0 && db < 0.0) || (da < 0.0 && db > 0.0)) kept.push_back(a + (b - a) * (da / (da - db)));
+    if (da >= 0.0) kept.add(a);
+    if ((da > 0.0 && db < 0.0) || (da < 0.0 && db > 0.0)) kept.add(a + (b - a) * (da / (da - db)));
   }
   return kept;
 }
@@ -165,7 +172,24 @@ struct CubeFace {
 
   // The triangle as the face sees it, in cells. A corner at the light itself cannot be projected; a triangle with one is edge-on.
   [[nodiscard]] Polygon project(const std::array<Vec3, 3>& corners, int resolution) const {
-    std::vector<Vec3> cut(corners.begin(), corners.end());
+    Cut cut;
+    for (const Vec3& c : corners) cut.add(c);
+    if (!holds(corners)) cut = clippedToFace(cut);
+    Polygon polygon;
+    for (int i = 0; i < cut.size; ++i)
+      if (const double depth = sign * cut.corners[i][axis]; depth > 0.0)
+        polygon.add((Vec2(cut.corners[i][u], cut.corners[i][v]) / depth * 0.5 + 0.5) * double(resolution));
+    return polygon;
+  }
+
+  // Most triangles lie within one face, and need no cutting.
+  [[nodiscard]] bool holds(const std::array<Vec3, 3>& corners) const {
+    return std::all_of(corners.begin(), corners.end(), [&](const Vec3& c) {
+      return std::max(std::abs(c[u]), std::abs(c[v])) <= sign * c[axis];
+    });
+  }
+
+  [[nodiscard]] Cut clippedToFace(Cut cut) const {
     for (const int other : {u, v}) {
       for (const double side : {1.0, -1.0}) {
         Vec3 inward(0.0);
@@ -174,11 +198,7 @@ struct CubeFace {
         cut = clipped(cut, inward);
       }
     }
-    Polygon polygon;
-    for (const Vec3& c : cut)
-      if (const double depth = sign * c[axis]; depth > 0.0)
-        polygon.add((Vec2(c[u], c[v]) / depth * 0.5 + 0.5) * double(resolution));
-    return polygon;
+    return cut;
   }
 };
 
