@@ -26,6 +26,7 @@ class BruteForceTechnique final : public shadow::Technique {
     const Vec3 eye = frame.camera.eye - surfaces.origin;
     const auto rays = scene::pixelRays(frame.camera);
     shadow::Shading out;
+    image::Image<Vec3> points(width, height);
     out.surface.triangle = image::Image<std::uint32_t>(width, height, shadow::kNoTriangle);
     out.surface.depth = image::Image<float>(width, height, std::numeric_limits<float>::infinity());
     for (int y = 0; y < height; ++y)
@@ -33,8 +34,9 @@ class BruteForceTechnique final : public shadow::Technique {
         const Hit hit = nearest(eye, rays.through(x + 0.5, y + 0.5), false);
         out.surface.triangle(x, y) = hit.triangle;
         out.surface.depth(x, y) = static_cast<float>(hit.t);
+        points(x, y) = eye + hit.t * rays.through(x + 0.5, y + 0.5);
       }
-    for (const scene::Light& light : frame.lights) out.masks.push_back(mask(out.surface, light, eye, rays));
+    for (const scene::Light& light : frame.lights) out.masks.push_back(mask(out.surface, points, light, eye));
     return out;
   }
 
@@ -63,8 +65,8 @@ class BruteForceTechnique final : public shadow::Technique {
     return best;
   }
 
-  [[nodiscard]] shadow::LightMask mask(const shadow::SurfaceBuffer& seen, const scene::Light& light, const Vec3& eye,
-                                       const scene::PixelRays& rays) const {
+  [[nodiscard]] shadow::LightMask mask(const shadow::SurfaceBuffer& seen, const image::Image<Vec3>& points,
+                                       const scene::Light& light, const Vec3& eye) const {
     const auto& surfaces = geometry_->surfaces;
     const Vec4 homogeneous = scene::homogeneous(light, surfaces.origin);
     const auto facing = shadow::visibleSideFacesLight(surfaces, Vec4(eye, 1.0), homogeneous);
@@ -76,10 +78,8 @@ class BruteForceTechnique final : public shadow::Technique {
         if (triangle == shadow::kNoTriangle) continue;
         mask.covered(x, y) = 1;
         if (facing[triangle] == 0) continue;
-        const Hit first = nearest(eye, rays.through(x + 0.5, y + 0.5), false);
-        const Vec3 point = eye + first.t * rays.through(x + 0.5, y + 0.5);
-        const Vec3 towards = scene::towardsLight(homogeneous, point);
-        mask.light(x, y) = nearest(point, towards, true).triangle == shadow::kNoTriangle ? 255 : 0;
+        const Vec3 towards = scene::towardsLight(homogeneous, points(x, y));
+        mask.light(x, y) = nearest(points(x, y), towards, true).triangle == shadow::kNoTriangle ? 255 : 0;
       }
     return mask;
   }

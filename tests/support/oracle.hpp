@@ -22,7 +22,8 @@ struct Crossing {
 };
 
 /// Where a ray meets a triangle. `margin`: barycentric distance from the border below which the answer is unclear.
-inline Crossing meet(const Vec3& from, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c, double margin) {
+inline Crossing meet(const Vec3& from, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c,
+                     double margin) {
   const Vec3 e1 = b - a, e2 = c - a, p = glm::cross(direction, e2);
   const double determinant = glm::dot(e1, p);
   // Relative to its largest possible value: edge-on within rounding, or no area.
@@ -56,7 +57,8 @@ class Oracle {
     if (!pixel.covered) return pixel;
     const Vec4 l = scene::homogeneous(light, surfaces_.origin);
     const Vec3 towards = scene::towardsLight(l, pixel.point), n = surfaces_.normal(pixel.triangle);
-    const double eyeSide = -glm::dot(n, direction) / glm::length(direction), lightSide = glm::dot(n, towards) / glm::length(towards);
+    const double eyeSide = -glm::dot(n, direction) / glm::length(direction),
+                 lightSide = glm::dot(n, towards) / glm::length(towards);
     if (std::min(std::abs(eyeSide), std::abs(lightSide)) <= 1e-12 * glm::length(n)) pixel.clear = false;
     if (eyeSide * lightSide <= 0.0 || !scene::insideCone(light, pixel.point + surfaces_.origin)) return pixel;
     const Answer shadowed = hidden(pixel.point, towards, l.w != 0.0);
@@ -67,12 +69,14 @@ class Oracle {
 
   /// Whether a caster lies between a point on a surface and the light; casters that touch `besides`, if
   /// given, are left out.
-  [[nodiscard]] Answer hidden(const Vec3& point, const Vec3& towards, bool finite, const Vec3* besides = nullptr) const {
+  [[nodiscard]] Answer hidden(const Vec3& point, const Vec3& towards, bool finite,
+                              const Vec3* besides = nullptr) const {
     Answer answer = Answer::no;
     const double near = 1e-10 * size_ / glm::length(towards);
     for (std::uint32_t t = 0; t < surfaces_.triangles.size(); ++t) {
       if (surfaces_.casts[t] == 0) continue;
-      const Crossing hit = meet(point, towards, surfaces_.corner(t, 0), surfaces_.corner(t, 1), surfaces_.corner(t, 2), 1e-7);
+      const Crossing hit =
+          meet(point, towards, surfaces_.corner(t, 0), surfaces_.corner(t, 1), surfaces_.corner(t, 2), 1e-7);
       if (hit.answer == Answer::no || hit.t <= near || (finite && hit.t >= 1.0 - 1e-12)) continue;
       if (besides != nullptr && touches(t, *besides)) continue;
       if (hit.answer == Answer::yes) return Answer::yes;
@@ -83,14 +87,16 @@ class Oracle {
 
  private:
   [[nodiscard]] bool touches(std::uint32_t t, const Vec3& p) const {
-    return distanceToTriangle(p, surfaces_.corner(t, 0), surfaces_.corner(t, 1), surfaces_.corner(t, 2)) <= 1e-9 * size_;
+    return distanceToTriangle(p, surfaces_.corner(t, 0), surfaces_.corner(t, 1), surfaces_.corner(t, 2)) <=
+           1e-9 * size_;
   }
 
   [[nodiscard]] Pixel nearest(const Vec3& eye, const Vec3& direction) const {
     Pixel pixel;
     double best = std::numeric_limits<double>::infinity(), second = best;
     for (std::uint32_t t = 0; t < surfaces_.triangles.size(); ++t) {
-      const Crossing hit = meet(eye, direction, surfaces_.corner(t, 0), surfaces_.corner(t, 1), surfaces_.corner(t, 2), 1e-7);
+      const Crossing hit =
+          meet(eye, direction, surfaces_.corner(t, 0), surfaces_.corner(t, 1), surfaces_.corner(t, 2), 1e-7);
       if (hit.answer == Answer::no || hit.t <= 0.0) continue;
       if (hit.t < best) {
         second = std::exchange(best, hit.t);
@@ -112,7 +118,8 @@ class Oracle {
 };
 
 /// True when the answer changes within an eighth of a pixel, which is as sharp as ray_traced promises borders (LightRays, law 3).
-inline bool onEdge(const Oracle& truth, const scene::Camera& camera, const scene::Light& light, int x, int y, const Pixel& centre) {
+inline bool onEdge(const Oracle& truth, const scene::Camera& camera, const scene::Light& light, int x, int y,
+                   const Pixel& centre) {
   for (const double dy : {-0.13, 0.0, 0.13}) {
     for (const double dx : {-0.13, 0.0, 0.13}) {
       const Pixel beside = truth.look(camera, light, x + 0.5 + dx, y + 0.5 + dy);

@@ -35,7 +35,8 @@ struct Study {
   study::Profile profile;
 };
 
-Study studyOf(const char* from, const char* to, std::chrono::milliseconds step, std::vector<std::string> casters = {}) {
+Study studyOf(const char* from, const char* to, std::chrono::milliseconds step, std::vector<std::string> casters = {},
+              int width = kWidth, int height = kHeight) {
   Study s{scene::withGround(support::boxScene({{"West", {-9, -5, 0}, {-2, 5, 8}}, {"East", {2, -5, 0}, {9, 5, 8}}})),
           {}};
   s.scene.source = "boxes.glb";
@@ -45,8 +46,8 @@ Study studyOf(const char* from, const char* to, std::chrono::milliseconds step, 
   o.camera.eye = {0, 0, 100};
   o.camera.target = {0, 0, 0};
   o.camera.up = {0, 1, 0};
-  o.camera.width = kWidth;
-  o.camera.height = kHeight;
+  o.camera.width = width;
+  o.camera.height = height;
   o.camera.fovY = Angle::radians(2.0 * std::atan(16.25 / 100.0));
   o.casters = std::move(casters);
   support::BruteForceTechnique technique;
@@ -138,7 +139,7 @@ TEST(ShadowPicture, OutlinesEachStepInItsColour) {
 }
 
 TEST(ShadowPicture, StaysWithinItsPanelForManySteps) {
-  const Study s = studyOf("06:00", "18:00", 12min);
+  const Study s = studyOf("06:00", "18:00", 12min, {}, 90, 60);
   ASSERT_EQ(s.profile.steps.size(), 61u);
   const auto picture = shadowPicture(s.scene, s.profile);
   EXPECT_LT(picture.height(), 700);
@@ -171,21 +172,21 @@ TEST(HoursPicture, GoesFromNoneToAllOnItsScale) {
 
 // One bad byte must not silence the rest of the legend.
 TEST(ShadowPicture, SurvivesNamesThatAreNoText) {
-  Study s = studyOf("11:00", "13:00", 1h);
+  Study s = studyOf("11:00", "13:00", 1h, {}, 90, 60);
   const auto good = shadowPicture(s.scene, s.profile);
   s.scene.source = "\xff\xfe\xc3(\xed\xa0\x80\n\t\xf8";
   const auto bad = shadowPicture(s.scene, s.profile);
   EXPECT_EQ(bad.height(), good.height());
   for (int i = 0; i < 3; ++i)
-    EXPECT_EQ(countColour(bad, timeColour(i / 2.0), kWidth, bad.width()),
-              countColour(good, timeColour(i / 2.0), kWidth, good.width()));
+    EXPECT_EQ(countColour(bad, timeColour(i / 2.0), 90, bad.width()),
+              countColour(good, timeColour(i / 2.0), 90, good.width()));
 }
 
 TEST(Pictures, OfANightAreDrawnToo) {
-  const Study s = studyOf("00:00", "03:00", 1h);
-  EXPECT_GT(shadowPicture(s.scene, s.profile).width(), kWidth);
-  EXPECT_GT(hoursPicture(s.scene, s.profile).width(), kWidth);
-  EXPECT_EQ(StepPictures(s.scene, s.profile).picture(0).width(), kWidth);
+  const Study s = studyOf("00:00", "03:00", 1h, {}, 90, 60);
+  EXPECT_GT(shadowPicture(s.scene, s.profile).width(), 90);
+  EXPECT_GT(hoursPicture(s.scene, s.profile).width(), 90);
+  EXPECT_EQ(StepPictures(s.scene, s.profile).picture(0).width(), 90);
 }
 
 TEST(StepPictures, AreDarkerWhereTheShadowIs) {
