@@ -9,6 +9,7 @@
 
 #include "umbrage/io/detail/format.hpp"
 #include "umbrage/io/detail/handover.hpp"
+#include "umbrage/io/detail/printable.hpp"
 #include "umbrage/io/detail/reader_process.hpp"
 
 namespace umbrage::io {
@@ -16,6 +17,8 @@ namespace {
 
 // Of the time allowed, what is kept back for checking the hand-over in this process.
 constexpr double kReadersShare = 0.85;
+constexpr std::size_t kLongestMessage = 400;
+constexpr std::size_t kLongestName = 1000;
 
 Result<void> checkOptions(const LoadOptions& options) {
   if (options.metresPerUnit && !(*options.metresPerUnit > 0.0 && std::isfinite(*options.metresPerUnit)))
@@ -43,22 +46,18 @@ std::string listOfExtensions() {
   return list;
 }
 
-// What comes from a file may reach a terminal: control characters would be obeyed there.
-std::string printable(const std::string& text) {
-  constexpr std::size_t kMost = 400;
-  std::string clean;
-  for (const char c : text) {
-    const bool blank = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-    if (clean.size() >= kMost) return clean + "...";
-    if (!blank || (!clean.empty() && clean.back() != ' ')) clean += blank ? ' ' : c;
-  }
-  return clean;
+void makePrintable(scene::Scene& scene) {
+  for (std::string& warning : scene.warnings) warning = detail::printable(warning, kLongestMessage);
+  for (scene::Material& material : scene.materials) material.name = detail::printable(material.name, kLongestName);
+  for (scene::Instance& instance : scene.instances) instance.name = detail::printable(instance.name, kLongestName);
+  for (scene::Light& light : scene.lights) light.name = detail::printable(light.name, kLongestName);
+  scene.crs = detail::printable(scene.crs, kLongestName);
 }
 
 // The file comes first in every message; the element the reader spoke of goes behind.
 Error about(const std::filesystem::path& path, Error error) {
   if (!error.where.empty()) error.message += " (" + error.where + ")";
-  error.message = printable(error.message);
+  error.message = detail::printable(error.message, kLongestMessage);
   error.where = path.string();
   return error;
 }
@@ -77,7 +76,7 @@ Result<scene::Scene> loadScene(const std::filesystem::path& path, const LoadOpti
   auto scene = detail::unpack(*bytes);
   if (!scene) return tl::unexpected(about(path, scene.error()));
   scene->source = path.string();
-  for (std::string& warning : scene->warnings) warning = printable(warning);
+  makePrintable(*scene);
   scene->up = options.up.value_or(scene->up);
   scene->metresPerUnit = options.metresPerUnit.value_or(scene->metresPerUnit);
   scene->northOffset = options.north.value_or(scene->northOffset);

@@ -36,8 +36,9 @@ inline constexpr std::size_t kMaxInstances = 1'000'000;
 /// 2. A partly readable file gives what could be read, and Scene::warnings counts the rest. A readable file without triangles
 ///    gives an empty scene and a warning.
 /// 3. Triangles of a closed surface stay edge-closed: no vertex is moved, joined within a tolerance or invented.
-/// 4. Colours of .obj, .3ds, .iv, .wrl and CityJSON materials are taken as sRGB and made linear; those of glTF are linear.
-/// 5. May be called from several threads at once.
+/// 4. Colours are taken as sRGB and made linear, except those of glTF, which are linear.
+/// 5. Names and warnings are UTF-8 without control characters; what is not UTF-8 in a file is taken as Latin-1.
+/// 6. May be called from several threads at once.
 /// The reader is looked for at $UMBRAGE_READER, then beside the running program, then where this library was installed or built.
 /// Errors: input (missing, broken, hostile, too large, too slow), unsupported (unknown format or feature), usage (options).
 /// CAVEAT: .obj .ply .stl .off .3ds .ifc .x3d .iv .wrl are read in single precision by the libraries behind them.

@@ -66,10 +66,11 @@ Mat4 rootTransform(detail::Format format) {
   return {Vec4(1, 0, 0, 0), Vec4(0, 0, 1, 0), Vec4(0, -1, 0, 0), Vec4(0, 0, 0, 1)};
 }
 
-scene::Material materialOf(const aiMaterial& given) {
+scene::Material materialOf(const aiMaterial& given, unsigned index) {
   scene::Material m;
   aiString name;
   if (given.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS) m.name = name.C_Str();
+  if (m.name.empty()) m.name = "material " + std::to_string(index);
   aiColor3D diffuse;
   if (given.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse) == aiReturn_SUCCESS)
     m.colour = linearFromSrgb(Vec3(diffuse.r, diffuse.g, diffuse.b));
@@ -118,7 +119,8 @@ struct PartMaker {
 // assimp names nodes that have none itself, the root most of all; such names say nothing about the scene.
 std::string nameOf(const aiNode& node, const std::string& fileName) {
   std::string name = node.mName.C_Str();
-  if (name.starts_with("<") || name.starts_with("$") || (node.mParent == nullptr && name == fileName)) return {};
+  if (name.starts_with("<") || name.starts_with("$") || (node.mParent == nullptr && name.ends_with(fileName)))
+    return {};
   return name;
 }
 
@@ -164,7 +166,7 @@ Result<scene::Scene> readWithAssimp(const Request& request, detail::Format forma
   }
   scene::Scene scene;
   scene.up = upOf(format);
-  for (unsigned i = 0; i < given->mNumMaterials; ++i) scene.materials.push_back(materialOf(*given->mMaterials[i]));
+  for (unsigned i = 0; i < given->mNumMaterials; ++i) scene.materials.push_back(materialOf(*given->mMaterials[i], i));
   addNodes(*given, rootTransform(format), request.file.filename().string(), scene);
   complaints.appendTo(scene.warnings);
   return scene;

@@ -83,8 +83,9 @@ class CityReader {
   [[nodiscard]] std::string lodOf(const Json& geometry) const;
   [[nodiscard]] Chosen chooseGeometries(const Json& object);
   void addObject(const std::string& path, const Json& object, const std::vector<Vec3>& vertices);
-  void addInstance(const std::string& path, const Json& geometry, const std::vector<Vec3>& vertices);
-  [[nodiscard]] std::optional<std::uint32_t> templateMesh(std::size_t index);
+  void addInstance(const std::string& path, const Json& geometry, const std::string& objectType,
+                   const std::vector<Vec3>& vertices);
+  [[nodiscard]] std::optional<std::uint32_t> templateMesh(std::size_t index, const std::string& objectType);
 
   std::optional<std::string> lod_;
   scene::Scene scene_;
@@ -92,7 +93,7 @@ class CityReader {
   Transform transform_;
   Json templates_;
   std::vector<Vec3> templateVertices_;
-  std::map<std::size_t, std::uint32_t> templateMeshes_;
+  std::map<std::pair<std::size_t, std::string>, std::uint32_t> templateMeshes_;  // the type decides the material
   SurfaceCounts counts_;
   std::set<std::string> lodsSeen_;
   std::size_t objectsWithoutLod_ = 0, objectsMalformed_ = 0, instancesDropped_ = 0, lines_ = 0, brokenLines_ = 0;
@@ -166,7 +167,7 @@ void CityReader::addObject(const std::string& path, const Json& object, const st
   CityMesh builder(vertices, materials_, counts_);
   for (const Json* geometry : chooseGeometries(object)) {
     if (textOf(member(*geometry, "type")) == "GeometryInstance")
-      addInstance(path, *geometry, vertices);
+      addInstance(path, *geometry, type, vertices);
     else
       builder.add(*geometry, type);
   }
@@ -193,9 +194,10 @@ std::optional<Mat4> placement(const Json& geometry, const std::vector<Vec3>& ver
   return m;
 }
 
-void CityReader::addInstance(const std::string& path, const Json& geometry, const std::vector<Vec3>& vertices) {
+void CityReader::addInstance(const std::string& path, const Json& geometry, const std::string& objectType,
+                             const std::vector<Vec3>& vertices) {
   const auto index = indexOf(member(geometry, "template"));
-  const auto mesh = index ? templateMesh(*index) : std::nullopt;
+  const auto mesh = index ? templateMesh(*index, objectType) : std::nullopt;
   const auto where = placement(geometry, vertices);
   if (!mesh || !where) {
     ++instancesDropped_;
@@ -204,17 +206,18 @@ void CityReader::addInstance(const std::string& path, const Json& geometry, cons
   scene_.instances.push_back({path, *mesh, *where, true});
 }
 
-std::optional<std::uint32_t> CityReader::templateMesh(std::size_t index) {
-  if (const auto known = templateMeshes_.find(index); known != templateMeshes_.end()) return known->second;
+std::optional<std::uint32_t> CityReader::templateMesh(std::size_t index, const std::string& objectType) {
+  const auto key = std::pair(index, objectType);
+  if (const auto known = templateMeshes_.find(key); known != templateMeshes_.end()) return known->second;
   const Json& geometry = element(templates_, index);
   if (!geometry.is_object()) return std::nullopt;
   CityMesh builder(templateVertices_, materials_, counts_);
-  builder.add(geometry, "template");
+  builder.add(geometry, objectType);
   mesh::Mesh m = builder.take();
   m.name = "template " + std::to_string(index);
   const auto mesh = static_cast<std::uint32_t>(scene_.meshes.size());
   scene_.meshes.push_back(std::make_shared<const mesh::Mesh>(std::move(m)));
-  templateMeshes_[index] = mesh;
+  templateMeshes_[key] = mesh;
   return mesh;
 }
 

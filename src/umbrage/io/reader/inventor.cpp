@@ -12,9 +12,15 @@
 #include <Inventor/nodes/SoGroup.h>
 #include <Inventor/nodes/SoInfo.h>
 #include <Inventor/nodes/SoMaterial.h>
+#include <Inventor/nodes/SoNormal.h>
+#include <Inventor/nodes/SoNormalBinding.h>
 #include <Inventor/nodes/SoPointLight.h>
 #include <Inventor/nodes/SoShape.h>
 #include <Inventor/nodes/SoSpotLight.h>
+#include <Inventor/nodes/SoTexture.h>
+#include <Inventor/nodes/SoTextureCoordinate2.h>
+#include <Inventor/nodes/SoTextureCoordinate3.h>
+#include <Inventor/nodes/SoTextureCoordinateFunction.h>
 
 #include <algorithm>
 #include <map>
@@ -80,14 +86,16 @@ class Collector {
   const SoNode* shape_ = nullptr;
   std::map<Look, std::uint32_t> materials_;
   std::map<Look, std::string> materialNames_;
-  std::size_t brokenShapes_ = 0;
+  std::size_t brokenShapes_ = 0, nurbs_ = 0;
 };
 
 SoCallbackAction::Response Collector::enter(SoCallbackAction* action, const SoNode* shape) {
   endPart();
-  const ShapeFitness fitness = fitnessOf(action, shape);
-  if (fitness == ShapeFitness::broken) ++brokenShapes_;
-  return fitness == ShapeFitness::good ? SoCallbackAction::CONTINUE : SoCallbackAction::PRUNE;
+  // Coin's callbacks show nodes as const; what is changed in this one is of no meaning to the scene.
+  const ShapeVerdict verdict = judge(action, const_cast<SoNode*>(shape));
+  if (verdict == ShapeVerdict::broken) ++brokenShapes_;
+  if (verdict == ShapeVerdict::nurbs) ++nurbs_;
+  return verdict == ShapeVerdict::read ? SoCallbackAction::CONTINUE : SoCallbackAction::PRUNE;
 }
 
 void Collector::beginPart(SoCallbackAction* action, const SoNode* shape) {
@@ -197,9 +205,11 @@ scene::Scene Collector::finish() {
   }
   if (brokenShapes_ > 0)
     scene_.warnings.push_back(counted(brokenShapes_, "shape") + " dropped: more points named than there are");
+  if (nurbs_ > 0) scene_.warnings.push_back(counted(nurbs_, "NURBS surface") + " left out: not read");
   return std::move(scene_);
 }
 
+SoCallbackAction::Response passOver(void*, SoCallbackAction*, const SoNode*) { return SoCallbackAction::PRUNE; }
 SoCallbackAction::Response enterShape(void* self, SoCallbackAction* action, const SoNode* node) {
   return static_cast<Collector*>(self)->enter(action, node);
 }
@@ -225,6 +235,11 @@ scene::Scene collect(SoNode* root) {
   action.addPreCallback(SoVRMLMaterial::getClassTypeId(), meetMaterial, &collector);
   action.addPreCallback(SoLight::getClassTypeId(), meetLight, &collector);
   action.addPreCallback(SoVRMLLight::getClassTypeId(), meetLight, &collector);
+  // Normals and textures are not needed, and Coin trusts the indices into them.
+  for (const SoType type : {SoNormal::getClassTypeId(), SoNormalBinding::getClassTypeId(), SoTexture::getClassTypeId(),
+                            SoTextureCoordinate2::getClassTypeId(), SoTextureCoordinate3::getClassTypeId(),
+                            SoTextureCoordinateFunction::getClassTypeId()})
+    action.addPreCallback(type, passOver, nullptr);
   action.addTriangleCallback(SoShape::getClassTypeId(), meetTriangle, &collector);
   action.apply(root);
   return collector.finish();

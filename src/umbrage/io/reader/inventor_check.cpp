@@ -9,11 +9,16 @@
 #include <Inventor/elements/SoCoordinateElement.h>
 #include <Inventor/misc/SoChildList.h>
 #include <Inventor/nodes/SoFaceSet.h>
+#include <Inventor/nodes/SoImage.h>
 #include <Inventor/nodes/SoIndexedFaceSet.h>
 #include <Inventor/nodes/SoIndexedLineSet.h>
+#include <Inventor/nodes/SoIndexedNurbsCurve.h>
+#include <Inventor/nodes/SoIndexedNurbsSurface.h>
 #include <Inventor/nodes/SoIndexedPointSet.h>
 #include <Inventor/nodes/SoIndexedTriangleStripSet.h>
 #include <Inventor/nodes/SoLineSet.h>
+#include <Inventor/nodes/SoNurbsCurve.h>
+#include <Inventor/nodes/SoNurbsSurface.h>
 #include <Inventor/nodes/SoPointSet.h>
 #include <Inventor/nodes/SoQuadMesh.h>
 #include <Inventor/nodes/SoTriangleStripSet.h>
@@ -101,6 +106,44 @@ bool pointsFit(SoCallbackAction* action, const SoNode* shape) {
   return true;
 }
 
+template <class... Nodes>
+bool isAny(const SoNode* node) {
+  return (node->isOfType(Nodes::getClassTypeId()) || ...);
+}
+
+// Coin reads a binding's index for every corner or face, however few there are. The default, a single -1, stands for the
+// corners' own indices.
+void lengthen(SoMFInt32& indices, const SoMFInt32& corners) {
+  const bool standard = indices.getNum() == 0 || (indices.getNum() == 1 && indices[0] < 0);
+  for (int i = standard ? 0 : indices.getNum(); i < corners.getNum(); ++i)
+    indices.set1Value(i, standard ? corners[i] : 0);
+}
+
+// Normals and texture coordinates play no part here, so their bindings are emptied rather than trusted.
+void secureBindings(SoNode* shape) {
+  shape->enableNotify(FALSE);
+  if (shape->isOfType(SoIndexedShape::getClassTypeId())) {
+    auto* indexed = static_cast<SoIndexedShape*>(shape);
+    lengthen(indexed->materialIndex, indexed->coordIndex);
+    indexed->normalIndex.setValue(-1);
+    indexed->textureCoordIndex.setValue(-1);
+  }
+  if (shape->isOfType(SoVertexShape::getClassTypeId()))
+    if (SoNode* own = static_cast<SoVertexShape*>(shape)->vertexProperty.getValue();
+        own != nullptr && own->isOfType(SoVertexProperty::getClassTypeId())) {
+      static_cast<SoVertexProperty*>(own)->normal.setNum(0);
+      static_cast<SoVertexProperty*>(own)->texCoord.setNum(0);
+    }
+  if (shape->isOfType(SoVRMLIndexedFaceSet::getClassTypeId())) {
+    auto* faces = static_cast<SoVRMLIndexedFaceSet*>(shape);
+    if (faces->colorIndex.getNum() > 0) lengthen(faces->colorIndex, faces->coordIndex);
+    faces->normal.setValue(nullptr);
+    faces->normalIndex.setNum(0);
+    faces->texCoord.setValue(nullptr);
+    faces->texCoordIndex.setNum(0);
+  }
+}
+
 }  // namespace
 
 Result<void> checkGraph(SoNode* root) {
@@ -128,11 +171,14 @@ Result<void> checkGraph(SoNode* root) {
   return {};
 }
 
-ShapeFitness fitnessOf(SoCallbackAction* action, const SoNode* shape) {
-  if (as<SoLineSet>(shape) || as<SoIndexedLineSet>(shape) || as<SoPointSet>(shape) || as<SoIndexedPointSet>(shape) ||
-      as<SoVRMLIndexedLineSet>(shape) || as<SoVRMLPointSet>(shape))
-    return ShapeFitness::withoutArea;
-  return pointsFit(action, shape) ? ShapeFitness::good : ShapeFitness::broken;
+ShapeVerdict judge(SoCallbackAction* action, SoNode* shape) {
+  if (isAny<SoLineSet, SoIndexedLineSet, SoPointSet, SoIndexedPointSet, SoVRMLIndexedLineSet, SoVRMLPointSet, SoImage,
+            SoNurbsCurve, SoIndexedNurbsCurve>(shape))
+    return ShapeVerdict::withoutArea;
+  if (isAny<SoNurbsSurface, SoIndexedNurbsSurface>(shape)) return ShapeVerdict::nurbs;
+  if (!pointsFit(action, shape)) return ShapeVerdict::broken;
+  secureBindings(shape);
+  return ShapeVerdict::read;
 }
 
 }  // namespace umbrage::io::reader

@@ -5,14 +5,19 @@
 
 #include "umbrage/base/error.hpp"
 
-// What Coin's traversal takes on trust and a hostile file breaks.
+// What Coin's traversal takes on trust and a hostile (or merely unusual) file breaks.
 namespace umbrage::io::reader {
 
 /// Errors: a node contains itself; following every use of every node, there are more nodes than can be gone through.
 [[nodiscard]] Result<void> checkGraph(SoNode* root);
 
-enum class ShapeFitness { good, withoutArea, broken };
-/// withoutArea: points and lines. broken: a face set that names points it does not have. To be asked before Coin enters a shape.
-[[nodiscard]] ShapeFitness fitnessOf(SoCallbackAction* action, const SoNode* shape);
+/// What is to be done with a shape. Asked before Coin enters it.
+enum class ShapeVerdict {
+  read,         ///< fit to be read; bindings that Coin would read beyond the end of have been made long enough
+  withoutArea,  ///< points, lines, pictures: nothing here
+  broken,       ///< a face set that names points it does not have
+  nurbs         ///< surfaces for which Coin wants an OpenGL context
+};
+[[nodiscard]] ShapeVerdict judge(SoCallbackAction* action, SoNode* shape);
 
 }  // namespace umbrage::io::reader

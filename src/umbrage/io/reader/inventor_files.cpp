@@ -15,6 +15,7 @@
 #include <Inventor/nodes/SoFile.h>
 #include <Inventor/nodes/SoWWWInline.h>
 
+#include <algorithm>
 #include <set>
 #include <vector>
 
@@ -43,8 +44,9 @@ void listen(const SoError* error, void*) {
   for (const std::string& noise :
        {session().folder.string() + "/", std::string("Coin read error: "), std::string("\t")})
     for (auto at = text.find(noise); at != std::string::npos; at = text.find(noise)) text.erase(at, noise.size());
-  for (char& c : text)
-    if (c == '\n') c = ' ';
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  // Textures are not missed, nor are the scripts that would move things.
+  if (text.find("texture file") != std::string::npos || text.find("script language") != std::string::npos) return;
   session().complaints->add(text);
 }
 
@@ -66,7 +68,7 @@ class Include {
     if (++session().depth > kMaxIncludeDepth || ++session().includes > kMaxIncludes)
       session().complaints->add("files include each other without end");
     else if (!isInside(session().folder, path_.getString()))
-      session().complaints->add(std::string("left out, not in the scene's folder: ") + name.getString());
+      session().complaints->add(std::string("left out, not found in the scene's folder: ") + name.getString());
     else
       allowed_ = true;
   }
@@ -90,7 +92,8 @@ class FolderFile : public SoFile {
 
  protected:
   SbBool readNamedFile(SoInput* in) override {
-    const Include include(this->name.getValue());
+    if (name.isDefault()) return TRUE;
+    const Include include(name.getValue());
     return include.allowed() ? SoFile::readNamedFile(in) : TRUE;
   }
 };
