@@ -3,6 +3,9 @@
 #include <cstring>
 
 #include "conformance/judge.hpp"
+#ifdef UMBRAGE_HAVE_IO
+#include "conformance/models.hpp"
+#endif
 #include "support/oracle.hpp"
 #include "umbrage/techniques/cpu/registry.hpp"
 
@@ -10,8 +13,13 @@ using namespace umbrage;
 
 int main(int argc, char** argv) {
   if (argc != 4) return 2;
-  const auto c = conformance::makeCase(argv[1]);
+  auto c = conformance::Case();
+#ifdef UMBRAGE_HAVE_IO
+  if (std::strchr(argv[1], '.') != nullptr) c = conformance::modelCase(argv[1]).value();
+#endif
+  if (c.name.empty()) c = conformance::makeCase(argv[1]);
   const auto geometry = shadow::makeGeometry(c.scene);
+  for (auto& view : conformance::searchViews(c, *geometry, 1000)) c.views.push_back(std::move(view));
   const oracle::Oracle bruteForce(geometry->surfaces);
   for (const auto& entry : conformance::allTechniques()) {
     auto truth = conformance::allTechniques().front().create();

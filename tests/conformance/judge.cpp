@@ -108,17 +108,19 @@ bool Judge::seesHairline(const Masks& m, const shadow::SurfaceBuffer& truth, int
 bool Judge::exactForDisplacedPoint(const Masks& m, const shadow::SurfaceBuffer& truth, int x, int y) const {
   const std::uint32_t triangle = m.seen.triangle(x, y);
   const double depth = m.seen.depth(x, y), most = kDepthError * depth;
-  if (triangle == shadow::kNoTriangle || !(std::abs(depth - truth.depth(x, y)) <= 4.0 * most)) return false;
+  if (triangle == shadow::kNoTriangle) return false;
+  if (triangle != truth.triangle(x, y) && !(std::abs(depth - truth.depth(x, y)) <= 4.0 * most)) return false;
   const scene::Surfaces& surfaces = geometry_->surfaces;
   const Vec3 eye = m.camera.eye - surfaces.origin;
   const scene::PixelRays rays = scene::pixelRays(m.camera);
   const Vec4 light = scene::homogeneous(m.light, surfaces.origin);
   const bool facing = shadow::visibleSideFacesLight(surfaces, Vec4(eye, 1.0), light)[triangle] != 0;
   const oracle::Oracle bruteForce(surfaces);
+  const auto seenThrough = [&](const Vec3& ray) { return eye + depthOfPlane(surfaces, triangle, eye, ray) * ray; };
+  const Vec3 centre = seenThrough(rays.through(x + 0.5, y + 0.5));
   const auto agrees = [&](double dx, double dy, double shift) {
-    const Vec3 ray = rays.through(x + 0.5 + dx, y + 0.5 + dy), seen = eye + depthOfPlane(surfaces, triangle, eye, ray) * ray;
-    const Vec3 point = seen + shift * most * ray;
-    const auto hidden = bruteForce.hidden(point, scene::towardsLight(light, point), light.w != 0.0, &seen);
+    const Vec3 ray = rays.through(x + 0.5 + dx, y + 0.5 + dy), point = seenThrough(ray) + shift * most * ray;
+    const auto hidden = bruteForce.hidden(point, scene::towardsLight(light, point), light.w != 0.0, &centre);
     const bool lit = facing && scene::insideCone(m.light, point + surfaces.origin) && hidden == oracle::Answer::no;
     return lit == (m.mask.light(x, y) == 255);
   };

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "umbrage/scene/scene.hpp"
+#include "umbrage/shadow/technique.hpp"
 
 namespace umbrage::conformance {
 
@@ -33,5 +34,11 @@ struct Case {
 /// break shadows: eyes in volumes and on their sides, lights in corners and in planes of faces.
 [[nodiscard]] std::vector<NamedLight> standardLights(const scene::Scene& scene);
 [[nodiscard]] std::vector<NamedView> standardViews(const scene::Scene& scene, const std::vector<NamedLight>& lights);
+
+/// `count` more views: random ones, and eyes at 0, 1e-6 .. 1e-2 of the scene's size from sides of shadow volumes, where z-pass is
+/// weakest.
+[[nodiscard]] std::vector<NamedView> searchViews(const Case& c, const shadow::Geometry& geometry, int count);
+
+[[nodiscard]] scene::Camera looking(const Vec3& eye, const Vec3& target, double fovDegrees, int width, int height);
 
 }  // namespace umbrage::conformance

@@ -30,11 +30,7 @@ Light spotAt(const Vec3& p, const Vec3& target) {
   return {scene::SpotLight{p, target - p, Angle::degrees(25)}, Vec3(1.0), 1.0, ""};
 }
 
-Camera looking(const Vec3& eye, const Vec3& target, double fov = 60) {
-  Camera c;
-  c.eye = eye, c.target = target, c.fovY = Angle::degrees(fov), c.width = kWidth, c.height = kHeight;
-  return c;
-}
+Camera view(const Vec3& eye, const Vec3& target, double fov = 60) { return looking(eye, target, fov, kWidth, kHeight); }
 
 Vec3 lightPoint(const Light& light, const Box3& box) {
   const Vec4 l = scene::homogeneous(light, Vec3(0.0));
@@ -66,13 +62,19 @@ void addSideViews(const scene::Scene& s, const NamedLight& light, const Box3& bo
     const Side& side = all[which];
     const Vec3 middle = 0.5 * (side.a + side.b), away = side.away(l, middle);
     const std::string tag = "_" + light.name + std::to_string(which == 0 ? 0 : 1);
-    views.push_back({"eye_on_a_side" + tag, looking(middle + 0.6 * r * away, box.centre())});
+    views.push_back({"eye_on_a_side" + tag, view(middle + 0.6 * r * away, box.centre())});
     views.push_back({"eye_in_a_sides_plane" + tag,
-                     looking(middle + 0.4 * r * away + 1.7 * r * glm::normalize(side.b - side.a), box.centre())});
+                     view(middle + 0.4 * r * away + 1.7 * r * glm::normalize(side.b - side.a), box.centre())});
   }
 }
 
 }  // namespace
+
+scene::Camera looking(const Vec3& eye, const Vec3& target, double fovDegrees, int width, int height) {
+  scene::Camera c;
+  c.eye = eye, c.target = target, c.fovY = Angle::degrees(fovDegrees), c.width = width, c.height = height;
+  return c;
+}
 
 std::vector<NamedLight> standardLights(const scene::Scene& s) {
   const Box3 box = objectBox(s);
@@ -102,14 +104,14 @@ std::vector<NamedView> standardViews(const scene::Scene& s, const std::vector<Na
   const double r = box.radius();
   const Vec3 lamp = lightPoint(lights.front().light, box), sun = lightPoint(lights[1].light, box);
   const Vec3 behind = c + 0.9 * r * glm::normalize(c - lamp), behindSun = c + 0.7 * r * glm::normalize(c - sun);
-  std::vector<NamedView> views{{"outside", looking(c + r * Vec3(-1.6, -1.9, 1.3), c)},
-                               {"above", looking(c + r * Vec3(0.1, 0.2, 3.0), c)},
-                               {"grazing", looking(c + Vec3(2.4 * r, 0.9 * r, 0.02 * r + box.min.z - c.z), c)},
-                               {"inside_the_box", looking(c + r * Vec3(0.03, 0.05, 0.07), c + r * Vec3(1, 0.4, -0.2), 90)},
-                               {"in_the_lamps_shadow", looking(behind, c + r * Vec3(1.2, 0.2, -1), 90)},
-                               {"from_its_shadow_to_the_lamp", looking(behind, lamp, 90)},
-                               {"in_the_suns_shadow", looking(behindSun, c, 90)},
-                               {"almost_touching", looking(Vec3(c.x, box.min.y - 1e-3 * r, c.z), c + r * Vec3(0.9, 0.6, -0.7), 90)}};
+  std::vector<NamedView> views{{"outside", view(c + r * Vec3(-1.6, -1.9, 1.3), c)},
+                               {"above", view(c + r * Vec3(0.1, 0.2, 3.0), c)},
+                               {"grazing", view(c + Vec3(2.4 * r, 0.9 * r, 0.02 * r + box.min.z - c.z), c)},
+                               {"inside_the_box", view(c + r * Vec3(0.03, 0.05, 0.07), c + r * Vec3(1, 0.4, -0.2), 90)},
+                               {"in_the_lamps_shadow", view(behind, c + r * Vec3(1.2, 0.2, -1), 90)},
+                               {"from_its_shadow_to_the_lamp", view(behind, lamp, 90)},
+                               {"in_the_suns_shadow", view(behindSun, c, 90)},
+                               {"almost_touching", view(Vec3(c.x, box.min.y - 1e-3 * r, c.z), c + r * Vec3(0.9, 0.6, -0.7), 90)}};
   addSideViews(s, lights[0], box, views);
   addSideViews(s, lights[1], box, views);
   return views;
