@@ -37,7 +37,8 @@ constexpr int kNoGraphics = 77;
 void openContext() {
   if (!epoxy_has_egl()) stop("no EGL here", kNoGraphics);
   EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
-  if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE) stop("no display here", kNoGraphics);
+  if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE)
+    stop("no display here", kNoGraphics);
   eglBindAPI(EGL_OPENGL_API);
   const std::array<EGLint, 5> wanted{EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_NONE};
   const EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted.data());
@@ -83,7 +84,8 @@ void addBox(World& world, const Vec3& low, const Vec3& high, const Vec3& colour)
 
 World makeWorld() {
   World world;
-  addQuad(world, {Vec3(-60, -60, 0), Vec3(60, -60, 0), Vec3(60, 60, 0), Vec3(-60, 60, 0)}, {0, 0, 1}, {0.62, 0.62, 0.58});
+  addQuad(world, {Vec3(-60, -60, 0), Vec3(60, -60, 0), Vec3(60, 60, 0), Vec3(-60, 60, 0)}, {0, 0, 1},
+          {0.62, 0.62, 0.58});
   world.groundVertices = world.vertices.size();
   const Vec3 stone(0.78, 0.7, 0.58), brick(0.68, 0.38, 0.28), slate(0.42, 0.48, 0.55);
   addBox(world, {-9, 4, 0}, {-2, 7, 5}, brick);
@@ -135,7 +137,8 @@ void main() {
 
 GLuint makeProgram() {
   const GLuint program = glCreateProgram();
-  for (const auto& [stage, source] : {std::pair(GL_VERTEX_SHADER, kVertexShader), {GL_FRAGMENT_SHADER, kFragmentShader}}) {
+  for (const auto& [stage, source] :
+       {std::pair(GL_VERTEX_SHADER, kVertexShader), {GL_FRAGMENT_SHADER, kFragmentShader}}) {
     const GLuint shader = glCreateShader(stage);
     glShaderSource(shader, 1, &source, nullptr);
     glCompileShader(shader);
@@ -196,11 +199,26 @@ void drawWorld(const Host& host, const glm::vec4& light, const Vec3& radiance) {
 // Some of what a renderer would be sorry to find changed.
 std::vector<GLint> stateOf() {
   std::vector<GLint> state;
-  for (const GLenum what :
-       {GL_CURRENT_PROGRAM, GL_VERTEX_ARRAY_BINDING, GL_DRAW_FRAMEBUFFER_BINDING, GL_READ_FRAMEBUFFER_BINDING, GL_DEPTH_FUNC,
-        GL_STENCIL_FUNC, GL_STENCIL_PASS_DEPTH_FAIL, GL_STENCIL_BACK_PASS_DEPTH_FAIL, GL_BLEND_SRC_RGB, GL_BLEND_DST_RGB,
-        GL_CLIP_ORIGIN, GL_CLIP_DEPTH_MODE, GL_FRONT_FACE, GL_CULL_FACE_MODE, GL_DEPTH_WRITEMASK, GL_STENCIL_WRITEMASK,
-        GL_SHADER_STORAGE_BUFFER_BINDING, GL_UNIFORM_BUFFER_BINDING, GL_ACTIVE_TEXTURE, GL_PACK_ALIGNMENT}) {
+  for (const GLenum what : {GL_CURRENT_PROGRAM,
+                            GL_VERTEX_ARRAY_BINDING,
+                            GL_DRAW_FRAMEBUFFER_BINDING,
+                            GL_READ_FRAMEBUFFER_BINDING,
+                            GL_DEPTH_FUNC,
+                            GL_STENCIL_FUNC,
+                            GL_STENCIL_PASS_DEPTH_FAIL,
+                            GL_STENCIL_BACK_PASS_DEPTH_FAIL,
+                            GL_BLEND_SRC_RGB,
+                            GL_BLEND_DST_RGB,
+                            GL_CLIP_ORIGIN,
+                            GL_CLIP_DEPTH_MODE,
+                            GL_FRONT_FACE,
+                            GL_CULL_FACE_MODE,
+                            GL_DEPTH_WRITEMASK,
+                            GL_STENCIL_WRITEMASK,
+                            GL_SHADER_STORAGE_BUFFER_BINDING,
+                            GL_UNIFORM_BUFFER_BINDING,
+                            GL_ACTIVE_TEXTURE,
+                            GL_PACK_ALIGNMENT}) {
     GLint value = 0;
     glGetIntegerv(what, &value);
     state.push_back(value);
@@ -246,11 +264,12 @@ void draw(const Host& host, std::vector<Lamp>& lamps) {
     const auto marked = shadows->mark(lamp.light, {.view = host.view, .projection = host.projection});
     if (!marked) stop(marked.error().text());
     if (stateOf() != before) stop("the host's OpenGL state was changed");
-    std::printf("%s: %s, %s; %zu silhouette edges\n", lamp.light.name.c_str(), marked->method.c_str(), marked->reason.c_str(),
-                marked->silhouetteEdges);
+    std::printf("%s: %s, %s; %zu silhouette edges\n", lamp.light.name.c_str(), marked->method.c_str(),
+                marked->reason.c_str(), marked->silhouetteEdges);
 
     // 3. Then light what is left.
-    drawWorld(host, glm::vec4(umbrage::scene::homogeneous(lamp.light, Vec3(0.0))), lamp.light.colour * lamp.light.intensity);
+    drawWorld(host, glm::vec4(umbrage::scene::homogeneous(lamp.light, Vec3(0.0))),
+              lamp.light.colour * lamp.light.intensity);
 
     lamp.stencil.resize(std::size_t(kWidth) * kHeight);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -302,8 +321,8 @@ void check(const Host& host, const Lamp& lamp) {
       shadowed += truth == Truth::shadowed;
       wrong += marked != (truth == Truth::shadowed);
     }
-  std::printf("%s: %zu pixels of the ground checked, %zu of them in shadow, %zu wrong\n", lamp.light.name.c_str(), checked,
-              shadowed, wrong);
+  std::printf("%s: %zu pixels of the ground checked, %zu of them in shadow, %zu wrong\n", lamp.light.name.c_str(),
+              checked, shadowed, wrong);
   if (wrong > 0 || shadowed == 0) stop("the shadows are wrong");
 }
 
@@ -324,8 +343,9 @@ void writePicture(const Host& host, const std::string& path) {
 int main(int argc, char** argv) {
   openContext();
   const Host host = makeHost();
-  std::vector<Lamp> lamps{{{umbrage::scene::DirectionalLight{{0.7, 0.25, -0.6}}, Vec3(1.0, 0.92, 0.78), 0.75, "sun"}, {}},
-                          {{umbrage::scene::PointLight{{1.0, -4.5, 5.0}}, Vec3(0.45, 0.6, 1.0), 0.6, "lamp"}, {}}};
+  std::vector<Lamp> lamps{
+      {{umbrage::scene::DirectionalLight{{0.7, 0.25, -0.6}}, Vec3(1.0, 0.92, 0.78), 0.75, "sun"}, {}},
+      {{umbrage::scene::PointLight{{1.0, -4.5, 5.0}}, Vec3(0.45, 0.6, 1.0), 0.6, "lamp"}, {}}};
   draw(host, lamps);
   for (const Lamp& lamp : lamps) check(host, lamp);
   writePicture(host, argc > 1 ? argv[1] : "own_renderer.ppm");

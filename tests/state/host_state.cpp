@@ -19,23 +19,35 @@ struct Named {
 // More of each kind than the house uses, so that touching a neighbour would be seen.
 constexpr int kSlots = 8, kUnits = 6, kDrawBuffers = 3, kViewports = 3;
 
-const std::vector<Named> kSwitches{
-    UMBRAGE_NAMED(GL_DEPTH_TEST),          UMBRAGE_NAMED(GL_DEPTH_CLAMP),
-    UMBRAGE_NAMED(GL_STENCIL_TEST),        UMBRAGE_NAMED(GL_CULL_FACE),
-    UMBRAGE_NAMED(GL_COLOR_LOGIC_OP),      UMBRAGE_NAMED(GL_POLYGON_OFFSET_FILL),
-    UMBRAGE_NAMED(GL_POLYGON_OFFSET_LINE), UMBRAGE_NAMED(GL_POLYGON_OFFSET_POINT),
-    UMBRAGE_NAMED(GL_FRAMEBUFFER_SRGB),    UMBRAGE_NAMED(GL_MULTISAMPLE),
-    UMBRAGE_NAMED(GL_SAMPLE_ALPHA_TO_ONE), UMBRAGE_NAMED(GL_SAMPLE_ALPHA_TO_COVERAGE),
-    UMBRAGE_NAMED(GL_SAMPLE_COVERAGE),     UMBRAGE_NAMED(GL_SAMPLE_SHADING),
-    UMBRAGE_NAMED(GL_SAMPLE_MASK),         UMBRAGE_NAMED(GL_PRIMITIVE_RESTART),
-    UMBRAGE_NAMED(GL_RASTERIZER_DISCARD),  UMBRAGE_NAMED(GL_PRIMITIVE_RESTART_FIXED_INDEX),
-    UMBRAGE_NAMED(GL_DITHER),              UMBRAGE_NAMED(GL_POLYGON_SMOOTH),
-    UMBRAGE_NAMED(GL_LINE_SMOOTH),         UMBRAGE_NAMED(GL_PROGRAM_POINT_SIZE),
-    UMBRAGE_NAMED(GL_CLIP_DISTANCE0),      UMBRAGE_NAMED(GL_CLIP_DISTANCE3),
-    UMBRAGE_NAMED(GL_CLIP_DISTANCE7),      UMBRAGE_NAMED(GL_TEXTURE_CUBE_MAP_SEAMLESS)};
-const std::vector<Named> kCompatibilitySwitches{
-    UMBRAGE_NAMED(GL_ALPHA_TEST), UMBRAGE_NAMED(GL_POLYGON_STIPPLE), UMBRAGE_NAMED(GL_LIGHTING), UMBRAGE_NAMED(GL_FOG),
-    UMBRAGE_NAMED(GL_NORMALIZE), UMBRAGE_NAMED(GL_LINE_STIPPLE)};
+const std::vector<Named> kSwitches{UMBRAGE_NAMED(GL_DEPTH_TEST),
+                                   UMBRAGE_NAMED(GL_DEPTH_CLAMP),
+                                   UMBRAGE_NAMED(GL_STENCIL_TEST),
+                                   UMBRAGE_NAMED(GL_CULL_FACE),
+                                   UMBRAGE_NAMED(GL_COLOR_LOGIC_OP),
+                                   UMBRAGE_NAMED(GL_POLYGON_OFFSET_FILL),
+                                   UMBRAGE_NAMED(GL_POLYGON_OFFSET_LINE),
+                                   UMBRAGE_NAMED(GL_POLYGON_OFFSET_POINT),
+                                   UMBRAGE_NAMED(GL_FRAMEBUFFER_SRGB),
+                                   UMBRAGE_NAMED(GL_MULTISAMPLE),
+                                   UMBRAGE_NAMED(GL_SAMPLE_ALPHA_TO_ONE),
+                                   UMBRAGE_NAMED(GL_SAMPLE_ALPHA_TO_COVERAGE),
+                                   UMBRAGE_NAMED(GL_SAMPLE_COVERAGE),
+                                   UMBRAGE_NAMED(GL_SAMPLE_SHADING),
+                                   UMBRAGE_NAMED(GL_SAMPLE_MASK),
+                                   UMBRAGE_NAMED(GL_PRIMITIVE_RESTART),
+                                   UMBRAGE_NAMED(GL_RASTERIZER_DISCARD),
+                                   UMBRAGE_NAMED(GL_PRIMITIVE_RESTART_FIXED_INDEX),
+                                   UMBRAGE_NAMED(GL_DITHER),
+                                   UMBRAGE_NAMED(GL_POLYGON_SMOOTH),
+                                   UMBRAGE_NAMED(GL_LINE_SMOOTH),
+                                   UMBRAGE_NAMED(GL_PROGRAM_POINT_SIZE),
+                                   UMBRAGE_NAMED(GL_CLIP_DISTANCE0),
+                                   UMBRAGE_NAMED(GL_CLIP_DISTANCE3),
+                                   UMBRAGE_NAMED(GL_CLIP_DISTANCE7),
+                                   UMBRAGE_NAMED(GL_TEXTURE_CUBE_MAP_SEAMLESS)};
+const std::vector<Named> kCompatibilitySwitches{UMBRAGE_NAMED(GL_ALPHA_TEST), UMBRAGE_NAMED(GL_POLYGON_STIPPLE),
+                                                UMBRAGE_NAMED(GL_LIGHTING),   UMBRAGE_NAMED(GL_FOG),
+                                                UMBRAGE_NAMED(GL_NORMALIZE),  UMBRAGE_NAMED(GL_LINE_STIPPLE)};
 
 struct Wide {
   GLenum what;
@@ -45,70 +57,69 @@ struct Wide {
 #define UMBRAGE_WIDE(what, count) \
   Wide { what, #what, count }
 
-const std::vector<Wide> kValues{
-    UMBRAGE_WIDE(GL_DEPTH_FUNC, 1),
-    UMBRAGE_WIDE(GL_DEPTH_WRITEMASK, 1),
-    UMBRAGE_WIDE(GL_DEPTH_CLEAR_VALUE, 1),
-    UMBRAGE_WIDE(GL_STENCIL_CLEAR_VALUE, 1),
-    UMBRAGE_WIDE(GL_COLOR_CLEAR_VALUE, 4),
-    UMBRAGE_WIDE(GL_STENCIL_FUNC, 1),
-    UMBRAGE_WIDE(GL_STENCIL_REF, 1),
-    UMBRAGE_WIDE(GL_STENCIL_VALUE_MASK, 1),
-    UMBRAGE_WIDE(GL_STENCIL_WRITEMASK, 1),
-    UMBRAGE_WIDE(GL_STENCIL_FAIL, 1),
-    UMBRAGE_WIDE(GL_STENCIL_PASS_DEPTH_FAIL, 1),
-    UMBRAGE_WIDE(GL_STENCIL_PASS_DEPTH_PASS, 1),
-    UMBRAGE_WIDE(GL_STENCIL_BACK_FUNC, 1),
-    UMBRAGE_WIDE(GL_STENCIL_BACK_REF, 1),
-    UMBRAGE_WIDE(GL_STENCIL_BACK_VALUE_MASK, 1),
-    UMBRAGE_WIDE(GL_STENCIL_BACK_WRITEMASK, 1),
-    UMBRAGE_WIDE(GL_STENCIL_BACK_FAIL, 1),
-    UMBRAGE_WIDE(GL_STENCIL_BACK_PASS_DEPTH_FAIL, 1),
-    UMBRAGE_WIDE(GL_STENCIL_BACK_PASS_DEPTH_PASS, 1),
-    UMBRAGE_WIDE(GL_BLEND_COLOR, 4),
-    UMBRAGE_WIDE(GL_LOGIC_OP_MODE, 1),
-    UMBRAGE_WIDE(GL_CULL_FACE_MODE, 1),
-    UMBRAGE_WIDE(GL_FRONT_FACE, 1),
-    UMBRAGE_WIDE(GL_POLYGON_MODE, 2),
-    UMBRAGE_WIDE(GL_POLYGON_OFFSET_FACTOR, 1),
-    UMBRAGE_WIDE(GL_POLYGON_OFFSET_UNITS, 1),
-    UMBRAGE_WIDE(GL_LINE_WIDTH, 1),
-    UMBRAGE_WIDE(GL_POINT_SIZE, 1),
-    UMBRAGE_WIDE(GL_CLIP_ORIGIN, 1),
-    UMBRAGE_WIDE(GL_CLIP_DEPTH_MODE, 1),
-    UMBRAGE_WIDE(GL_PROVOKING_VERTEX, 1),
-    UMBRAGE_WIDE(GL_PRIMITIVE_RESTART_INDEX, 1),
-    UMBRAGE_WIDE(GL_PATCH_VERTICES, 1),
-    UMBRAGE_WIDE(GL_SAMPLE_COVERAGE_VALUE, 1),
-    UMBRAGE_WIDE(GL_SAMPLE_COVERAGE_INVERT, 1),
-    UMBRAGE_WIDE(GL_MIN_SAMPLE_SHADING_VALUE, 1),
-    UMBRAGE_WIDE(GL_CLAMP_READ_COLOR, 1),
-    UMBRAGE_WIDE(GL_PACK_SWAP_BYTES, 1),
-    UMBRAGE_WIDE(GL_PACK_LSB_FIRST, 1),
-    UMBRAGE_WIDE(GL_PACK_ROW_LENGTH, 1),
-    UMBRAGE_WIDE(GL_PACK_SKIP_ROWS, 1),
-    UMBRAGE_WIDE(GL_PACK_SKIP_PIXELS, 1),
-    UMBRAGE_WIDE(GL_PACK_ALIGNMENT, 1),
-    UMBRAGE_WIDE(GL_PACK_IMAGE_HEIGHT, 1),
-    UMBRAGE_WIDE(GL_PACK_SKIP_IMAGES, 1),
-    UMBRAGE_WIDE(GL_UNPACK_ALIGNMENT, 1),
-    UMBRAGE_WIDE(GL_UNPACK_ROW_LENGTH, 1),
-    UMBRAGE_WIDE(GL_UNPACK_SKIP_PIXELS, 1),
-    UMBRAGE_WIDE(GL_CURRENT_PROGRAM, 1),
-    UMBRAGE_WIDE(GL_PROGRAM_PIPELINE_BINDING, 1),
-    UMBRAGE_WIDE(GL_VERTEX_ARRAY_BINDING, 1),
-    UMBRAGE_WIDE(GL_ARRAY_BUFFER_BINDING, 1),
-    UMBRAGE_WIDE(GL_ELEMENT_ARRAY_BUFFER_BINDING, 1),
-    UMBRAGE_WIDE(GL_UNIFORM_BUFFER_BINDING, 1),
-    UMBRAGE_WIDE(GL_SHADER_STORAGE_BUFFER_BINDING, 1),
-    UMBRAGE_WIDE(GL_PIXEL_PACK_BUFFER_BINDING, 1),
-    UMBRAGE_WIDE(GL_PIXEL_UNPACK_BUFFER_BINDING, 1),
-    UMBRAGE_WIDE(GL_COPY_READ_BUFFER_BINDING, 1),
-    UMBRAGE_WIDE(GL_COPY_WRITE_BUFFER_BINDING, 1),
-    UMBRAGE_WIDE(GL_DRAW_INDIRECT_BUFFER_BINDING, 1),
-    UMBRAGE_WIDE(GL_DRAW_FRAMEBUFFER_BINDING, 1),
-    UMBRAGE_WIDE(GL_READ_FRAMEBUFFER_BINDING, 1),
-    UMBRAGE_WIDE(GL_ACTIVE_TEXTURE, 1)};
+const std::vector<Wide> kValues{UMBRAGE_WIDE(GL_DEPTH_FUNC, 1),
+                                UMBRAGE_WIDE(GL_DEPTH_WRITEMASK, 1),
+                                UMBRAGE_WIDE(GL_DEPTH_CLEAR_VALUE, 1),
+                                UMBRAGE_WIDE(GL_STENCIL_CLEAR_VALUE, 1),
+                                UMBRAGE_WIDE(GL_COLOR_CLEAR_VALUE, 4),
+                                UMBRAGE_WIDE(GL_STENCIL_FUNC, 1),
+                                UMBRAGE_WIDE(GL_STENCIL_REF, 1),
+                                UMBRAGE_WIDE(GL_STENCIL_VALUE_MASK, 1),
+                                UMBRAGE_WIDE(GL_STENCIL_WRITEMASK, 1),
+                                UMBRAGE_WIDE(GL_STENCIL_FAIL, 1),
+                                UMBRAGE_WIDE(GL_STENCIL_PASS_DEPTH_FAIL, 1),
+                                UMBRAGE_WIDE(GL_STENCIL_PASS_DEPTH_PASS, 1),
+                                UMBRAGE_WIDE(GL_STENCIL_BACK_FUNC, 1),
+                                UMBRAGE_WIDE(GL_STENCIL_BACK_REF, 1),
+                                UMBRAGE_WIDE(GL_STENCIL_BACK_VALUE_MASK, 1),
+                                UMBRAGE_WIDE(GL_STENCIL_BACK_WRITEMASK, 1),
+                                UMBRAGE_WIDE(GL_STENCIL_BACK_FAIL, 1),
+                                UMBRAGE_WIDE(GL_STENCIL_BACK_PASS_DEPTH_FAIL, 1),
+                                UMBRAGE_WIDE(GL_STENCIL_BACK_PASS_DEPTH_PASS, 1),
+                                UMBRAGE_WIDE(GL_BLEND_COLOR, 4),
+                                UMBRAGE_WIDE(GL_LOGIC_OP_MODE, 1),
+                                UMBRAGE_WIDE(GL_CULL_FACE_MODE, 1),
+                                UMBRAGE_WIDE(GL_FRONT_FACE, 1),
+                                UMBRAGE_WIDE(GL_POLYGON_MODE, 2),
+                                UMBRAGE_WIDE(GL_POLYGON_OFFSET_FACTOR, 1),
+                                UMBRAGE_WIDE(GL_POLYGON_OFFSET_UNITS, 1),
+                                UMBRAGE_WIDE(GL_LINE_WIDTH, 1),
+                                UMBRAGE_WIDE(GL_POINT_SIZE, 1),
+                                UMBRAGE_WIDE(GL_CLIP_ORIGIN, 1),
+                                UMBRAGE_WIDE(GL_CLIP_DEPTH_MODE, 1),
+                                UMBRAGE_WIDE(GL_PROVOKING_VERTEX, 1),
+                                UMBRAGE_WIDE(GL_PRIMITIVE_RESTART_INDEX, 1),
+                                UMBRAGE_WIDE(GL_PATCH_VERTICES, 1),
+                                UMBRAGE_WIDE(GL_SAMPLE_COVERAGE_VALUE, 1),
+                                UMBRAGE_WIDE(GL_SAMPLE_COVERAGE_INVERT, 1),
+                                UMBRAGE_WIDE(GL_MIN_SAMPLE_SHADING_VALUE, 1),
+                                UMBRAGE_WIDE(GL_CLAMP_READ_COLOR, 1),
+                                UMBRAGE_WIDE(GL_PACK_SWAP_BYTES, 1),
+                                UMBRAGE_WIDE(GL_PACK_LSB_FIRST, 1),
+                                UMBRAGE_WIDE(GL_PACK_ROW_LENGTH, 1),
+                                UMBRAGE_WIDE(GL_PACK_SKIP_ROWS, 1),
+                                UMBRAGE_WIDE(GL_PACK_SKIP_PIXELS, 1),
+                                UMBRAGE_WIDE(GL_PACK_ALIGNMENT, 1),
+                                UMBRAGE_WIDE(GL_PACK_IMAGE_HEIGHT, 1),
+                                UMBRAGE_WIDE(GL_PACK_SKIP_IMAGES, 1),
+                                UMBRAGE_WIDE(GL_UNPACK_ALIGNMENT, 1),
+                                UMBRAGE_WIDE(GL_UNPACK_ROW_LENGTH, 1),
+                                UMBRAGE_WIDE(GL_UNPACK_SKIP_PIXELS, 1),
+                                UMBRAGE_WIDE(GL_CURRENT_PROGRAM, 1),
+                                UMBRAGE_WIDE(GL_PROGRAM_PIPELINE_BINDING, 1),
+                                UMBRAGE_WIDE(GL_VERTEX_ARRAY_BINDING, 1),
+                                UMBRAGE_WIDE(GL_ARRAY_BUFFER_BINDING, 1),
+                                UMBRAGE_WIDE(GL_ELEMENT_ARRAY_BUFFER_BINDING, 1),
+                                UMBRAGE_WIDE(GL_UNIFORM_BUFFER_BINDING, 1),
+                                UMBRAGE_WIDE(GL_SHADER_STORAGE_BUFFER_BINDING, 1),
+                                UMBRAGE_WIDE(GL_PIXEL_PACK_BUFFER_BINDING, 1),
+                                UMBRAGE_WIDE(GL_PIXEL_UNPACK_BUFFER_BINDING, 1),
+                                UMBRAGE_WIDE(GL_COPY_READ_BUFFER_BINDING, 1),
+                                UMBRAGE_WIDE(GL_COPY_WRITE_BUFFER_BINDING, 1),
+                                UMBRAGE_WIDE(GL_DRAW_INDIRECT_BUFFER_BINDING, 1),
+                                UMBRAGE_WIDE(GL_DRAW_FRAMEBUFFER_BINDING, 1),
+                                UMBRAGE_WIDE(GL_READ_FRAMEBUFFER_BINDING, 1),
+                                UMBRAGE_WIDE(GL_ACTIVE_TEXTURE, 1)};
 
 std::vector<double> floats(GLenum what, int count) {
   std::array<GLdouble, 4> v{};
@@ -140,9 +151,12 @@ void readBooleans(Snapshot& s, GLenum what, const char* name, int slots, int cou
   }
 }
 
-const std::vector<GLenum> kCompares{GL_NEVER, GL_LESS, GL_EQUAL, GL_LEQUAL, GL_GREATER, GL_NOTEQUAL, GL_GEQUAL, GL_ALWAYS};
-const std::vector<GLenum> kStencilOps{GL_KEEP, GL_ZERO, GL_REPLACE, GL_INCR, GL_INCR_WRAP, GL_DECR, GL_DECR_WRAP, GL_INVERT};
-const std::vector<GLenum> kFactors{GL_ZERO, GL_ONE, GL_SRC_COLOR, GL_ONE_MINUS_SRC_ALPHA, GL_DST_ALPHA, GL_CONSTANT_COLOR};
+const std::vector<GLenum> kCompares{GL_NEVER,   GL_LESS,     GL_EQUAL,  GL_LEQUAL,
+                                    GL_GREATER, GL_NOTEQUAL, GL_GEQUAL, GL_ALWAYS};
+const std::vector<GLenum> kStencilOps{GL_KEEP,      GL_ZERO, GL_REPLACE,   GL_INCR,
+                                      GL_INCR_WRAP, GL_DECR, GL_DECR_WRAP, GL_INVERT};
+const std::vector<GLenum> kFactors{GL_ZERO,      GL_ONE,           GL_SRC_COLOR, GL_ONE_MINUS_SRC_ALPHA,
+                                   GL_DST_ALPHA, GL_CONSTANT_COLOR};
 const std::vector<GLenum> kEquations{GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_FUNC_REVERSE_SUBTRACT, GL_MIN, GL_MAX};
 
 GLuint makeProgram(GLenum stage, const char* source) { return glCreateShaderProgramv(stage, 1, &source); }
@@ -172,7 +186,8 @@ WildHost::WildHost(bool compatibility) : compatibility_(compatibility) {
   for (int i = 0; i < 2; ++i)
     programs_.push_back(makeProgram(GL_VERTEX_SHADER, "#version 450 core\nvoid main() { gl_Position = vec4(0); }"));
   make(pipelines_, 2, glCreateProgramPipelines);
-  for (std::size_t i = 0; i < pipelines_.size(); ++i) glUseProgramStages(pipelines_[i], GL_VERTEX_SHADER_BIT, programs_[i]);
+  for (std::size_t i = 0; i < pipelines_.size(); ++i)
+    glUseProgramStages(pipelines_[i], GL_VERTEX_SHADER_BIT, programs_[i]);
   // Samplers that would spoil a fetch if they stayed.
   for (const GLuint s : samplers_) glSamplerParameteri(s, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
 }
@@ -259,8 +274,9 @@ void WildHost::randomiseBindings() {
         case 1: glBindBufferBase(target, i, pick(buffers_)); break;
         default: glBindBufferRange(target, i, pick(buffers_), 256 * number(0, 4), 16 * number(1, 64)); break;
       }
-  for (const GLenum target : {GL_ARRAY_BUFFER, GL_UNIFORM_BUFFER, GL_SHADER_STORAGE_BUFFER, GL_PIXEL_PACK_BUFFER,
-                              GL_PIXEL_UNPACK_BUFFER, GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, GL_DRAW_INDIRECT_BUFFER})
+  for (const GLenum target :
+       {GL_ARRAY_BUFFER, GL_UNIFORM_BUFFER, GL_SHADER_STORAGE_BUFFER, GL_PIXEL_PACK_BUFFER, GL_PIXEL_UNPACK_BUFFER,
+        GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, GL_DRAW_INDIRECT_BUFFER})
     glBindBuffer(target, coin() ? pick(buffers_) : 0);
   for (GLuint i = 0; i < kUnits; ++i) {
     glBindTextureUnit(i, 0);
@@ -282,7 +298,8 @@ Snapshot WildHost::snapshot() const {
   for (const Named& n : kSwitches) s[n.name] = {double(glIsEnabled(n.what))};
   if (compatibility_)
     for (const Named& n : kCompatibilitySwitches) s[n.name] = {double(glIsEnabled(n.what))};
-  for (GLuint i = 0; i < kDrawBuffers; ++i) s["GL_BLEND[" + std::to_string(i) + "]"] = {double(glIsEnabledi(GL_BLEND, i))};
+  for (GLuint i = 0; i < kDrawBuffers; ++i)
+    s["GL_BLEND[" + std::to_string(i) + "]"] = {double(glIsEnabledi(GL_BLEND, i))};
   for (GLuint i = 0; i < kViewports; ++i)
     s["GL_SCISSOR_TEST[" + std::to_string(i) + "]"] = {double(glIsEnabledi(GL_SCISSOR_TEST, i))};
   for (const Wide& w : kValues) s[w.name] = floats(w.what, w.count);
@@ -291,16 +308,16 @@ Snapshot WildHost::snapshot() const {
   readIndexed(s, GL_SCISSOR_BOX, "GL_SCISSOR_BOX", kViewports, 4);
   readIndexed(s, GL_DEPTH_RANGE, "GL_DEPTH_RANGE", kViewports, 2);
   readBooleans(s, GL_COLOR_WRITEMASK, "GL_COLOR_WRITEMASK", kDrawBuffers, 4);
-  for (const Named& n : {UMBRAGE_NAMED(GL_BLEND_SRC_RGB), UMBRAGE_NAMED(GL_BLEND_DST_RGB), UMBRAGE_NAMED(GL_BLEND_SRC_ALPHA),
-                         UMBRAGE_NAMED(GL_BLEND_DST_ALPHA), UMBRAGE_NAMED(GL_BLEND_EQUATION_RGB),
-                         UMBRAGE_NAMED(GL_BLEND_EQUATION_ALPHA)})
+  for (const Named& n : {UMBRAGE_NAMED(GL_BLEND_SRC_RGB), UMBRAGE_NAMED(GL_BLEND_DST_RGB),
+                         UMBRAGE_NAMED(GL_BLEND_SRC_ALPHA), UMBRAGE_NAMED(GL_BLEND_DST_ALPHA),
+                         UMBRAGE_NAMED(GL_BLEND_EQUATION_RGB), UMBRAGE_NAMED(GL_BLEND_EQUATION_ALPHA)})
     readIntegers(s, n.what, n.name, kDrawBuffers);
-  for (const Named& n :
-       {UMBRAGE_NAMED(GL_UNIFORM_BUFFER_BINDING), UMBRAGE_NAMED(GL_UNIFORM_BUFFER_START), UMBRAGE_NAMED(GL_UNIFORM_BUFFER_SIZE),
-        UMBRAGE_NAMED(GL_SHADER_STORAGE_BUFFER_BINDING), UMBRAGE_NAMED(GL_SHADER_STORAGE_BUFFER_START),
-        UMBRAGE_NAMED(GL_SHADER_STORAGE_BUFFER_SIZE)})
+  for (const Named& n : {UMBRAGE_NAMED(GL_UNIFORM_BUFFER_BINDING), UMBRAGE_NAMED(GL_UNIFORM_BUFFER_START),
+                         UMBRAGE_NAMED(GL_UNIFORM_BUFFER_SIZE), UMBRAGE_NAMED(GL_SHADER_STORAGE_BUFFER_BINDING),
+                         UMBRAGE_NAMED(GL_SHADER_STORAGE_BUFFER_START), UMBRAGE_NAMED(GL_SHADER_STORAGE_BUFFER_SIZE)})
     readIntegers(s, n.what, n.name, kSlots);
-  for (const Named& n : {UMBRAGE_NAMED(GL_TEXTURE_BINDING_2D), UMBRAGE_NAMED(GL_TEXTURE_BINDING_3D), UMBRAGE_NAMED(GL_SAMPLER_BINDING)})
+  for (const Named& n :
+       {UMBRAGE_NAMED(GL_TEXTURE_BINDING_2D), UMBRAGE_NAMED(GL_TEXTURE_BINDING_3D), UMBRAGE_NAMED(GL_SAMPLER_BINDING)})
     readIntegers(s, n.what, n.name, kUnits);
   return s;
 }

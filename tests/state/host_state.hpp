@@ -32,7 +32,8 @@ class WildHost {
 
   bool compatibility_;
   std::mt19937 random_;
-  std::vector<unsigned> buffers_, textures2d_, textures3d_, samplers_, vertexArrays_, framebuffers_, programs_, pipelines_;
+  std::vector<unsigned> buffers_, textures2d_, textures3d_, samplers_, vertexArrays_, framebuffers_, programs_,
+      pipelines_;
 };
 
 /// Names whose values differ, with both values.

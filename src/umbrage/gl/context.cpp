@@ -61,12 +61,16 @@ Result<Handles> open(const Candidate& candidate, const ContextOptions& options) 
     return fail(ErrorCode::device, "cannot draw without a window", candidate.name);
   const EGLenum oldApi = eglQueryAPI();
   if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) return fail(ErrorCode::device, "knows no OpenGL", candidate.name);
-  const std::array<EGLint, 9> wanted{EGL_CONTEXT_MAJOR_VERSION, 4,
-                                     EGL_CONTEXT_MINOR_VERSION, 5,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK, options.compatibility ? EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT
-                                                                                    : EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                     EGL_CONTEXT_OPENGL_DEBUG, options.debug ? EGL_TRUE : EGL_FALSE,
-                                     EGL_NONE};
+  const std::array<EGLint, 9> wanted{
+      EGL_CONTEXT_MAJOR_VERSION,
+      4,
+      EGL_CONTEXT_MINOR_VERSION,
+      5,
+      EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      options.compatibility ? EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT : EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+      EGL_CONTEXT_OPENGL_DEBUG,
+      options.debug ? EGL_TRUE : EGL_FALSE,
+      EGL_NONE};
   const EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted.data());
   if (oldApi != EGL_NONE) eglBindAPI(oldApi);
   if (context == EGL_NO_CONTEXT) return fail(ErrorCode::device, "OpenGL 4.5 is not to be had", candidate.name);
@@ -83,7 +87,8 @@ std::string currentRenderer() {
 Result<void> checkCurrentContext() {
   // Without a context the dispatcher would abort; the version query is the one call that it answers by 0.
   if (const int version = epoxy_gl_version(); version < 45 || !epoxy_is_desktop_gl())
-    return fail(ErrorCode::device, version <= 0 ? "no OpenGL context is current" : "the current context is older than OpenGL 4.5");
+    return fail(ErrorCode::device,
+                version <= 0 ? "no OpenGL context is current" : "the current context is older than OpenGL 4.5");
   return {};
 }
 
@@ -101,7 +106,8 @@ Quirks findQuirks() {
 }
 
 Result<std::shared_ptr<Context>> Context::createHeadless(const ContextOptions& options) {
-  if (!epoxy_has_egl()) return fail(ErrorCode::device, "no OpenGL on this machine: libEGL is missing (package libegl1)");
+  if (!epoxy_has_egl())
+    return fail(ErrorCode::device, "no OpenGL on this machine: libEGL is missing (package libegl1)");
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   std::string tried;
   for (const Candidate& candidate : candidates(extensions)) {
@@ -116,8 +122,9 @@ Result<std::shared_ptr<Context>> Context::createHeadless(const ContextOptions& o
     context->quirks_ = findQuirks();
     return context;
   }
-  return fail(ErrorCode::device, "no OpenGL 4.5 on this machine (" +
-                                     (tried.empty() ? std::string("EGL offers no device; package libgl1-mesa-dri") : tried) + ")");
+  return fail(ErrorCode::device,
+              "no OpenGL 4.5 on this machine (" +
+                  (tried.empty() ? std::string("EGL offers no device; package libgl1-mesa-dri") : tried) + ")");
 }
 
 // The display is not terminated: EGL hands out one display per device to the whole process, and others may be using it.

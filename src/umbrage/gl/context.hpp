@@ -9,7 +9,7 @@
 namespace umbrage::gl {
 
 struct ContextOptions {
-  bool debug = false;  ///< ask for a debug context, so that DebugLog hears everything
+  bool debug = false;          ///< ask for a debug context, so that DebugLog hears everything
   bool compatibility = false;  ///< the compatibility profile, as older hosts need
 };
 

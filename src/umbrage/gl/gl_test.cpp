@@ -26,8 +26,8 @@ struct Fixture {
   }
 };
 
-#define NEEDS_GRAPHICS(fixture)                                        \
-  const auto fixture = Fixture::make();                                \
+#define NEEDS_GRAPHICS(fixture)                                            \
+  const auto fixture = Fixture::make();                                    \
   if (!fixture) GTEST_SKIP() << "no graphics: " << fixture.error().text(); \
   const CurrentContext current(fixture->context);
 

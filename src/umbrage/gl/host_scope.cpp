@@ -11,17 +11,35 @@ namespace umbrage::gl {
 namespace {
 
 // Switches that must be off for our draws to mean what they say, whether or not a PassState names them.
-constexpr std::array kSwitches{
-    GL_DEPTH_TEST,          GL_DEPTH_CLAMP,          GL_STENCIL_TEST,
-    GL_CULL_FACE,           GL_COLOR_LOGIC_OP,       GL_POLYGON_OFFSET_FILL,
-    GL_POLYGON_OFFSET_LINE, GL_POLYGON_OFFSET_POINT, GL_FRAMEBUFFER_SRGB,
-    GL_MULTISAMPLE,         GL_SAMPLE_ALPHA_TO_ONE,  GL_SAMPLE_ALPHA_TO_COVERAGE,
-    GL_SAMPLE_COVERAGE,     GL_SAMPLE_SHADING,       GL_SAMPLE_MASK,
-    GL_PRIMITIVE_RESTART,   GL_RASTERIZER_DISCARD,   GL_PRIMITIVE_RESTART_FIXED_INDEX,
-    GL_DITHER,              GL_POLYGON_SMOOTH,       GL_LINE_SMOOTH,
-    GL_CLIP_DISTANCE0,      GL_CLIP_DISTANCE1,       GL_CLIP_DISTANCE2,
-    GL_CLIP_DISTANCE3,      GL_CLIP_DISTANCE4,       GL_CLIP_DISTANCE5,
-    GL_CLIP_DISTANCE6,      GL_CLIP_DISTANCE7};
+constexpr std::array kSwitches{GL_DEPTH_TEST,
+                               GL_DEPTH_CLAMP,
+                               GL_STENCIL_TEST,
+                               GL_CULL_FACE,
+                               GL_COLOR_LOGIC_OP,
+                               GL_POLYGON_OFFSET_FILL,
+                               GL_POLYGON_OFFSET_LINE,
+                               GL_POLYGON_OFFSET_POINT,
+                               GL_FRAMEBUFFER_SRGB,
+                               GL_MULTISAMPLE,
+                               GL_SAMPLE_ALPHA_TO_ONE,
+                               GL_SAMPLE_ALPHA_TO_COVERAGE,
+                               GL_SAMPLE_COVERAGE,
+                               GL_SAMPLE_SHADING,
+                               GL_SAMPLE_MASK,
+                               GL_PRIMITIVE_RESTART,
+                               GL_RASTERIZER_DISCARD,
+                               GL_PRIMITIVE_RESTART_FIXED_INDEX,
+                               GL_DITHER,
+                               GL_POLYGON_SMOOTH,
+                               GL_LINE_SMOOTH,
+                               GL_CLIP_DISTANCE0,
+                               GL_CLIP_DISTANCE1,
+                               GL_CLIP_DISTANCE2,
+                               GL_CLIP_DISTANCE3,
+                               GL_CLIP_DISTANCE4,
+                               GL_CLIP_DISTANCE5,
+                               GL_CLIP_DISTANCE6,
+                               GL_CLIP_DISTANCE7};
 // On at the baseline, as a new context has it: our targets have one sample, but a host's may have several.
 constexpr std::array kOnSwitches{GL_MULTISAMPLE};
 // These act on shaders' output in a compatibility context and do not exist in a core one.
@@ -29,8 +47,8 @@ constexpr std::array kCompatibilitySwitches{GL_ALPHA_TEST, GL_POLYGON_STIPPLE};
 // With glEnablei and glDisablei, index 0 only: other viewports and draw buffers are the host's own business.
 constexpr std::array kIndexedSwitches{GL_BLEND, GL_SCISSOR_TEST};
 
-constexpr std::array kPackSettings{GL_PACK_SWAP_BYTES, GL_PACK_LSB_FIRST,   GL_PACK_ROW_LENGTH,   GL_PACK_SKIP_ROWS,
-                                   GL_PACK_SKIP_PIXELS, GL_PACK_ALIGNMENT,   GL_PACK_IMAGE_HEIGHT, GL_PACK_SKIP_IMAGES};
+constexpr std::array kPackSettings{GL_PACK_SWAP_BYTES,  GL_PACK_LSB_FIRST, GL_PACK_ROW_LENGTH,   GL_PACK_SKIP_ROWS,
+                                   GL_PACK_SKIP_PIXELS, GL_PACK_ALIGNMENT, GL_PACK_IMAGE_HEIGHT, GL_PACK_SKIP_IMAGES};
 constexpr std::array kPackBaseline{0, 0, 0, 0, 0, 1, 0, 0};
 
 GLint integer(GLenum what) {
@@ -76,14 +94,15 @@ struct StencilFaceState {
 };
 
 StencilFaceState stencilFront() {
-  return {integer(GL_STENCIL_FUNC),      integer(GL_STENCIL_REF),  integer(GL_STENCIL_VALUE_MASK),
-          integer(GL_STENCIL_WRITEMASK), integer(GL_STENCIL_FAIL), integer(GL_STENCIL_PASS_DEPTH_FAIL),
+  return {integer(GL_STENCIL_FUNC),           integer(GL_STENCIL_REF),  integer(GL_STENCIL_VALUE_MASK),
+          integer(GL_STENCIL_WRITEMASK),      integer(GL_STENCIL_FAIL), integer(GL_STENCIL_PASS_DEPTH_FAIL),
           integer(GL_STENCIL_PASS_DEPTH_PASS)};
 }
 
 StencilFaceState stencilBack() {
-  return {integer(GL_STENCIL_BACK_FUNC),      integer(GL_STENCIL_BACK_REF),  integer(GL_STENCIL_BACK_VALUE_MASK),
-          integer(GL_STENCIL_BACK_WRITEMASK), integer(GL_STENCIL_BACK_FAIL), integer(GL_STENCIL_BACK_PASS_DEPTH_FAIL),
+  return {integer(GL_STENCIL_BACK_FUNC),           integer(GL_STENCIL_BACK_REF),
+          integer(GL_STENCIL_BACK_VALUE_MASK),     integer(GL_STENCIL_BACK_WRITEMASK),
+          integer(GL_STENCIL_BACK_FAIL),           integer(GL_STENCIL_BACK_PASS_DEPTH_FAIL),
           integer(GL_STENCIL_BACK_PASS_DEPTH_PASS)};
 }
 
@@ -169,7 +188,8 @@ HostScope::State::State() {
   for (GLuint i = 0; i < uniforms.size(); ++i)
     uniforms[i] = binding(i, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE);
   for (GLuint i = 0; i < storages.size(); ++i)
-    storages[i] = binding(i, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START, GL_SHADER_STORAGE_BUFFER_SIZE);
+    storages[i] =
+        binding(i, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START, GL_SHADER_STORAGE_BUFFER_SIZE);
   for (GLuint i = 0; i < textures.size(); ++i) {
     textures[i] = integer(GL_TEXTURE_BINDING_2D, i);
     samplers[i] = integer(GL_SAMPLER_BINDING, i);

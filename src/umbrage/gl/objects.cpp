@@ -49,7 +49,8 @@ Result<void> Buffer::set(std::span<const std::byte> bytes) {
   forgetOldErrors();
   // An empty buffer may not be bound for reading, so there is always at least one word.
   const std::size_t size = bytes.empty() ? 16 : bytes.size();
-  glNamedBufferData(handle_.name(), static_cast<GLsizeiptr>(size), bytes.empty() ? nullptr : bytes.data(), GL_DYNAMIC_DRAW);
+  glNamedBufferData(handle_.name(), static_cast<GLsizeiptr>(size), bytes.empty() ? nullptr : bytes.data(),
+                    GL_DYNAMIC_DRAW);
   if (glGetError() == GL_OUT_OF_MEMORY)
     return fail(ErrorCode::device, "graphics memory is short of " + std::to_string(size) + " bytes");
   bytes_ = bytes.size();

@@ -54,7 +54,8 @@ std::string text(const StencilState& stencil) {
 }
 
 std::string text(const Rect& r) {
-  return std::to_string(r.width) + "x" + std::to_string(r.height) + " at " + std::to_string(r.x) + "," + std::to_string(r.y);
+  return std::to_string(r.width) + "x" + std::to_string(r.height) + " at " + std::to_string(r.x) + "," +
+         std::to_string(r.y);
 }
 
 }  // namespace

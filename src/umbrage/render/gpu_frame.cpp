@@ -32,7 +32,8 @@ Result<GpuFrame> GpuFrame::make(int width, int height) {
 Result<void> GpuFrame::needMasks(std::size_t count) {
   while (masks_.size() < count) {
     Mask mask;
-    if (auto done = add(mask.texture, mask.target, gl::Format::grey8, width(), height(), &depthStencil_); !done) return done;
+    if (auto done = add(mask.texture, mask.target, gl::Format::grey8, width(), height(), &depthStencil_); !done)
+      return done;
     masks_.push_back(std::move(mask));
   }
   return {};

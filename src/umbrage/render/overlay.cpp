@@ -36,7 +36,11 @@ Vec4f tint(const Vec3f& colour, double alpha) { return Vec4f(colour, 1.0f) * sta
 class Marks {
  public:
   Marks(const View& view, const scene::Camera& camera, const shadow::Geometry& geometry)
-      : view_(view), camera_(camera), casters_(geometry.casters), room_(geometry.surfaces.bounds), radius_(casters_.bounds.radius()) {}
+      : view_(view),
+        camera_(camera),
+        casters_(geometry.casters),
+        room_(geometry.surfaces.bounds),
+        radius_(casters_.bounds.radius()) {}
 
   // A side fades with the distance from its edge. Faces of one colour laid over each other give the same in any order.
   void addSides(const shadow::Silhouette& silhouette, const Vec3f& colour) {
@@ -100,7 +104,8 @@ class Marks {
       const Vec4 lifted(xy, end.z * (1.0 + kLift), end.w);
       marks.push_back({Vec4f(lifted), colour, Vec4f(float(side), float(halfWidth_), 0.0f, 0.0f)});
     };
-    for (const auto& [end, side] : {std::pair(a, -1.0), {a, 1.0}, {b, -1.0}, {b, -1.0}, {a, 1.0}, {b, 1.0}}) add(end, side);
+    for (const auto& [end, side] : {std::pair(a, -1.0), {a, 1.0}, {b, -1.0}, {b, -1.0}, {a, 1.0}, {b, 1.0}})
+      add(end, side);
   }
 
   const View& view_;
@@ -135,15 +140,22 @@ Result<image::RgbaImage> drawLayer(const std::vector<Mark>& marks, const View& v
   auto gpuScene = GpuScene::make(geometry.surfaces);
   if (!gpuScene) return tl::unexpected(gpuScene.error());
   gl::Buffer viewData, markData;
-  if (auto done = viewData.setOne(viewBlock(view, geometry.surfaces.origin, Vec4(0.0))); !done) return tl::unexpected(done.error());
-  if (auto done = setStorage(markData, std::as_bytes(std::span(marks)), "marks"); !done) return tl::unexpected(done.error());
+  if (auto done = viewData.setOne(viewBlock(view, geometry.surfaces.origin, Vec4(0.0))); !done)
+    return tl::unexpected(done.error());
+  if (auto done = setStorage(markData, std::as_bytes(std::span(marks)), "marks"); !done)
+    return tl::unexpected(done.error());
 
   gl::PassState placement;
   placement.viewport = {0, 0, camera.width, camera.height};
   Programs programs;
   const std::vector<GpuLight> none;
   run(scope, planPasses(placement, view.reversed, {}, Product::masks),
-      {.programs = programs, .positions = gpuScene->positions(), .scene = &*gpuScene, .frame = &*frame, .view = &viewData, .lights = none});
+      {.programs = programs,
+       .positions = gpuScene->positions(),
+       .scene = &*gpuScene,
+       .frame = &*frame,
+       .view = &viewData,
+       .lights = none});
 
   const gl::Program program(shaders::kOverlayVert, shaders::kOverlayFrag);
   gl::PassState state = placement;

@@ -19,6 +19,7 @@ struct OverlayOptions {
 /// Errors: ErrorCode::device.
 [[nodiscard]] Result<image::RgbImage> drawOverlay(const image::RgbImage& picture, const shadow::Geometry& geometry,
                                                   const scene::Camera& camera, std::span<const scene::Light> lights,
-                                                  const OverlayOptions& options, std::shared_ptr<gl::Context> context = nullptr);
+                                                  const OverlayOptions& options,
+                                                  std::shared_ptr<gl::Context> context = nullptr);
 
 }  // namespace umbrage::render

@@ -9,7 +9,8 @@ using gl::Compare;
 using gl::StencilOp;
 
 constexpr std::array kTargets{"surface", "stencil", "mask", "sum", "picture", "host"};
-constexpr std::array kDraws{"nothing", "all surfaces", "sides by z-pass", "sides by z-fail", "caps by z-fail", "the screen"};
+constexpr std::array kDraws{"nothing",         "all surfaces",   "sides by z-pass",
+                            "sides by z-fail", "caps by z-fail", "the screen"};
 
 Compare nearer(bool reversed) { return reversed ? Compare::greater : Compare::less; }
 
@@ -90,8 +91,12 @@ struct Planner {
     s.light = light;
     s.state.colourWrite = false;
     const gl::StencilFace keep{.pass = StencilOp::replace};
-    s.state.stencil = {.test = true, .compare = Compare::notEqual, .reference = kKeepBit, .readMask = kCountBits,
-                       .front = keep, .back = keep};
+    s.state.stencil = {.test = true,
+                       .compare = Compare::notEqual,
+                       .reference = kKeepBit,
+                       .readMask = kCountBits,
+                       .front = keep,
+                       .back = keep};
     if (plan.litArea != placement.viewport) s.state.scissor = plan.litArea;
     list.steps.push_back(s);
   }
@@ -160,7 +165,8 @@ std::string describe(const PassList& list) {
   return out;
 }
 
-PassList planPasses(const gl::PassState& placement, bool reversed, const std::vector<LightPlan>& lights, Product product) {
+PassList planPasses(const gl::PassState& placement, bool reversed, const std::vector<LightPlan>& lights,
+                    Product product) {
   Planner planner{placement, reversed, product, {}};
   if (product != Product::hostStencil) planner.surfaces();
   if (product == Product::picture) planner.ambient();

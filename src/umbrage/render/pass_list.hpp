@@ -18,12 +18,12 @@ enum class Draw { nothing, surfaces, passSides, failSides, failCaps, screen };
 /// One pass as plain data.
 struct PassStep {
   std::string name;
-  std::string phase;   ///< what its time is booked on
+  std::string phase;  ///< what its time is booked on
   Target target = Target::surface;
   Shader shader = Shader::none;
   Draw draw = Draw::nothing;
-  int light = -1;      ///< whose data it uses; -1: no light's
-  int group = 0;       ///< which group of the light's volumes it draws
+  int light = -1;            ///< whose data it uses; -1: no light's
+  int group = 0;             ///< which group of the light's volumes it draws
   bool clearColour = false;  ///< to no triangle, or black
   std::optional<float> clearDepth;
   std::optional<std::uint8_t> clearStencil;
@@ -46,7 +46,8 @@ struct GroupPlan {
 
 /// What the plan must know of one light.
 struct LightPlan {
-  std::vector<GroupPlan> groups{1};  ///< several share the stencil: 7 bits count, the eighth keeps what earlier groups found
+  std::vector<GroupPlan> groups{
+      1};  ///< several share the stencil: 7 bits count, the eighth keeps what earlier groups found
   /// Caps are compared with the depth, for casters that are not in the depth buffer themselves (drawn later, or transparent);
   /// where they are, that would make caps fight with the surfaces they lie on.
   bool compareCaps = false;

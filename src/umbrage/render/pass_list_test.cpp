@@ -16,7 +16,8 @@ gl::PassState placement() {
 }
 
 TEST(PlanPasses, ZFailForOneLight) {
-  const LightPlan light{.groups = {{.failSides = true, .failCaps = true}}, .volumeArea = {8, 4, 20, 20}, .litArea = kAll};
+  const LightPlan light{
+      .groups = {{.failSides = true, .failCaps = true}}, .volumeArea = {8, 4, 20, 20}, .litArea = kAll};
   EXPECT_TRUE(approval::approved("passes_zfail", describe(planPasses(placement(), true, {light}, Product::masks))));
 }
 
@@ -30,7 +31,8 @@ TEST(PlanPasses, ZPassFromInsideTwoVolumesWithOneCasterByZFail) {
 TEST(PlanPasses, PictureWithASunAndASpot) {
   const LightPlan sun{.groups = {{.passSides = true}}, .volumeArea = kAll, .litArea = kAll};
   const LightPlan spot{.groups = {{.eyeCount = 1, .passSides = true}}, .volumeArea = kAll, .litArea = {10, 10, 8, 8}};
-  EXPECT_TRUE(approval::approved("passes_picture", describe(planPasses(placement(), true, {sun, spot}, Product::picture))));
+  EXPECT_TRUE(
+      approval::approved("passes_picture", describe(planPasses(placement(), true, {sun, spot}, Product::picture))));
 }
 
 TEST(PlanPasses, HostStencilWithOrdinaryDepth) {
@@ -43,7 +45,8 @@ TEST(PlanPasses, HostStencilWithOrdinaryDepth) {
 TEST(PlanPasses, SeveralGroupsShareTheStencil) {
   const GroupPlan group{.eyeCount = 129, .passSides = true};
   const LightPlan light{.groups = {group, group}, .volumeArea = kAll, .litArea = kAll};
-  EXPECT_TRUE(approval::approved("passes_groups", describe(planPasses(placement(), true, {light}, Product::hostStencil))));
+  EXPECT_TRUE(
+      approval::approved("passes_groups", describe(planPasses(placement(), true, {light}, Product::hostStencil))));
 }
 
 TEST(PlanPasses, WrapsTheEyeCountIntoEightBits) {

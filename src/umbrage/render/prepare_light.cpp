@@ -16,15 +16,15 @@ IndexRange append(std::vector<std::uint32_t>& indices, std::vector<std::uint32_t
   return range;
 }
 
-void addZFail(LightVolume& out, VolumeGroup& group, const shadow::CasterSet& casters, const shadow::Silhouette& silhouette,
-              std::span<const std::uint8_t> components) {
+void addZFail(LightVolume& out, VolumeGroup& group, const shadow::CasterSet& casters,
+              const shadow::Silhouette& silhouette, std::span<const std::uint8_t> components) {
   shadow::ShadowVolume volume = shadow::extrude(casters, silhouette, {.caps = true, .components = components});
   group.failSides = append(out.indices, std::move(volume.sides));
   group.failCaps = append(out.indices, std::move(volume.caps));
 }
 
-void addZPass(LightVolume& out, VolumeGroup& group, const shadow::CasterSet& casters, const shadow::Silhouette& silhouette,
-              const shadow::EyeCount& atEye) {
+void addZPass(LightVolume& out, VolumeGroup& group, const shadow::CasterSet& casters,
+              const shadow::Silhouette& silhouette, const shadow::EyeCount& atEye) {
   std::vector<std::uint8_t> others;
   if (atEye.byZFailCount > 0)
     for (const std::uint8_t fallen : atEye.byZFail) others.push_back(fallen == 0 ? 1 : 0);
@@ -53,7 +53,8 @@ LightVolume prepareVolume(const shadow::CasterSet& casters, const Vec4& light, c
   const shadow::LayerGroups groups = groupsFor(casters, whole);
   end("layers");
   for (int g = 0; g < groups.count; ++g) {
-    const shadow::Silhouette part = groups.count > 1 ? shadow::restrictTo(casters, whole, groups, g) : shadow::Silhouette{};
+    const shadow::Silhouette part =
+        groups.count > 1 ? shadow::restrictTo(casters, whole, groups, g) : shadow::Silhouette{};
     const shadow::Silhouette& silhouette = groups.count > 1 ? part : whole;
     VolumeGroup group;
     if (counting == Counting::zPass) {

@@ -27,7 +27,7 @@ struct VolumeGroup {
 
 /// What one light's shadow volumes are made of, ready to be uploaded. Computed without OpenGL.
 struct LightVolume {
-  Vec4 light{0.0};                     ///< homogeneous, relative to the casters' origin
+  Vec4 light{0.0};  ///< homogeneous, relative to the casters' origin
   Counting counting = Counting::zFail;
   std::vector<std::uint32_t> indices;  ///< into doubled vertices (shadow::ShadowVolume)
   /// One, unless a ray may meet more surfaces than 8 bits can count; then as many as 7 bits can, one bit keeping the result.

@@ -33,7 +33,8 @@ Result<shadow::LightStats> StencilShadows::mark(const scene::Light& light, const
   const LightVolume volume = prepareVolume(casters_, homogeneous, view.eye - casters_.origin, options.counting, stats);
   stats.reason = "chosen by the host";
   GpuLight& gpu = light_.front();
-  for (const auto& done : {gpu.view.setOne(viewBlock(view, casters_.origin, homogeneous)), gpu.volume.setAll(volume.indices)})
+  for (const auto& done :
+       {gpu.view.setOne(viewBlock(view, casters_.origin, homogeneous)), gpu.volume.setAll(volume.indices)})
     if (!done) return tl::unexpected(done.error());
   gpu.groups = volume.groups;
 

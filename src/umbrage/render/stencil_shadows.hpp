@@ -7,9 +7,9 @@ namespace umbrage::render {
 
 /// How a host looks at its scene.
 struct HostView {
-  Mat4 view{1.0};        ///< world to eye: a rotation and a translation
-  Mat4 projection{1.0};  ///< a perspective, as the host's own shaders use it
-  bool reversed = false; ///< the host's nearer surfaces have the greater depth
+  Mat4 view{1.0};         ///< world to eye: a rotation and a translation
+  Mat4 projection{1.0};   ///< a perspective, as the host's own shaders use it
+  bool reversed = false;  ///< the host's nearer surfaces have the greater depth
 };
 
 struct StencilShadowOptions {

@@ -35,11 +35,13 @@ std::string reasonFor(Counting counting, const shadow::LightStats& stats, std::s
   if (counting == Counting::zFail)
     text = "right for every eye and every caster";
   else if (stats.castersByZFail > 0)
-    text = std::to_string(stats.castersByZFail) + " casters by z-fail, since the eye touches a side of their shadow volumes";
+    text = std::to_string(stats.castersByZFail) +
+           " casters by z-fail, since the eye touches a side of their shadow volumes";
   else if (stats.eyeCount != 0)
     text = "no caps needed; the eye is inside " + std::to_string(stats.eyeCount) + " shadow volumes, which is counted";
   if (groups > 1)
-    text += "; in " + std::to_string(groups) + " groups, since more casters may lie behind each other than 8 bits count";
+    text +=
+        "; in " + std::to_string(groups) + " groups, since more casters may lie behind each other than 8 bits count";
   return text;
 }
 
@@ -173,14 +175,14 @@ class StencilTechnique final : public GlTechnique {
     const Vec4 homogeneous = scene::homogeneous(light, origin);
     const LightVolume volume = prepareVolume(casters, homogeneous, view.eye - origin, counting_, stats, ended);
     stats.reason = reasonFor(counting_, stats, volume.groups.size());
-    const auto facing = packBits(
-        shadow::visibleSideFacesLight(geometry_->surfaces, Vec4(view.eye - origin, 1.0), homogeneous));
+    const auto facing =
+        packBits(shadow::visibleSideFacesLight(geometry_->surfaces, Vec4(view.eye - origin, 1.0), homogeneous));
     if (ended) ended("facing");
 
     const ViewBlock viewData = viewBlock(view, origin, homogeneous);
     const ShadingBlock shading = withLight(shadingBlock(camera), camera, light);
-    for (const auto& done : {gpu.view.setOne(viewData), gpu.shading.setOne(shading),
-                             gpu.facing.setAll(facing), gpu.volume.setAll(volume.indices)})
+    for (const auto& done : {gpu.view.setOne(viewData), gpu.shading.setOne(shading), gpu.facing.setAll(facing),
+                             gpu.volume.setAll(volume.indices)})
       if (!done) return tl::unexpected(done.error());
     gpu.groups = volume.groups;
     if (ended) {

@@ -43,7 +43,8 @@ gl::Rect pixelsOf(const View& view, const std::vector<Vec4>& points, const gl::P
     return static_cast<int>(std::floor(start + bounded * size + margin));
   };
   const int left = pixel(b.left, viewport.x, viewport.width, -1), right = pixel(b.right, viewport.x, viewport.width, 2);
-  const int bottom = pixel(b.bottom, viewport.y, viewport.height, -1), top = pixel(b.top, viewport.y, viewport.height, 2);
+  const int bottom = pixel(b.bottom, viewport.y, viewport.height, -1),
+            top = pixel(b.top, viewport.y, viewport.height, 2);
   return gl::intersect({left, bottom, right - left, top - bottom}, viewport);
 }
 

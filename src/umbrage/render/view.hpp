@@ -9,10 +9,11 @@ namespace umbrage::render {
 
 /// How points become pixels. The eye is kept apart from the matrix, so that nothing large is subtracted in single precision.
 struct View {
-  Mat4 toClip{1.0};       ///< from (position - eye, w) to clip coordinates
-  Vec3 eye{0.0};          ///< in world coordinates
-  bool reversed = true;   ///< nearer surfaces have the greater depth
-  double nearDistance = 1.0;  ///< of viewOf(Camera): depth = nearDistance / distance along the view; see depthToDistance
+  Mat4 toClip{1.0};      ///< from (position - eye, w) to clip coordinates
+  Vec3 eye{0.0};         ///< in world coordinates
+  bool reversed = true;  ///< nearer surfaces have the greater depth
+  double nearDistance =
+      1.0;  ///< of viewOf(Camera): depth = nearDistance / distance along the view; see depthToDistance
 };
 
 /// The house's own projection of a camera: reversed, infinite, depth in [0, 1].

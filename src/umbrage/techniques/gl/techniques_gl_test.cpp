@@ -63,7 +63,8 @@ struct Truth {
   const scene::Surfaces& surfaces;
 
   // The first triangle that origin + t * ray hits with t in (from, to); its index, or kNoTriangle.
-  std::uint32_t hit(const Vec3& origin, const Vec3& ray, double from, double to, bool castersOnly, double* where = nullptr) const {
+  std::uint32_t hit(const Vec3& origin, const Vec3& ray, double from, double to, bool castersOnly,
+                    double* where = nullptr) const {
     std::uint32_t best = shadow::kNoTriangle;
     for (std::uint32_t i = 0; i < surfaces.triangles.size(); ++i) {
       if (castersOnly && surfaces.casts[i] == 0) continue;
@@ -88,7 +89,8 @@ struct Truth {
     image::Image<std::uint32_t> seen(camera.width, camera.height);
     image::Image<double> depth(camera.width, camera.height);
     for (int y = 0; y < camera.height; ++y)
-      for (int x = 0; x < camera.width; ++x) seen(x, y) = hit(eye, rays.through(x + 0.5, y + 0.5), 0.0, none, false, &depth(x, y));
+      for (int x = 0; x < camera.width; ++x)
+        seen(x, y) = hit(eye, rays.through(x + 0.5, y + 0.5), 0.0, none, false, &depth(x, y));
     const auto leaves = [&](int x, int y, int u, int v) {
       if (!seen.contains(u, v) || seen(x, y) == shadow::kNoTriangle || seen(u, v) == shadow::kNoTriangle) return false;
       const Vec3 n = glm::normalize(surfaces.normal(seen(x, y)));
@@ -97,7 +99,8 @@ struct Truth {
     };
     for (int y = 0; y < camera.height; ++y)
       for (int x = 0; x < camera.width; ++x)
-        if (leaves(x, y, x + 1, y) || leaves(x, y, x - 1, y) || leaves(x, y, x, y + 1) || leaves(x, y, x, y - 1)) edges(x, y) = 255;
+        if (leaves(x, y, x + 1, y) || leaves(x, y, x - 1, y) || leaves(x, y, x, y + 1) || leaves(x, y, x, y - 1))
+          edges(x, y) = 255;
     return edges;
   }
 
@@ -106,7 +109,8 @@ struct Truth {
     const Vec4 lamp = scene::homogeneous(light, surfaces.origin);
     const auto facing = shadow::visibleSideFacesLight(surfaces, Vec4(eye, 1.0), lamp);
     const scene::PixelRays rays = scene::pixelRays(camera);
-    shadow::LightMask m{image::GreyImage(camera.width, camera.height), {}, image::GreyImage(camera.width, camera.height)};
+    shadow::LightMask m{
+        image::GreyImage(camera.width, camera.height), {}, image::GreyImage(camera.width, camera.height)};
     for (int y = 0; y < camera.height; ++y)
       for (int x = 0; x < camera.width; ++x) {
         const Vec3 ray = rays.through(x + 0.5, y + 0.5);
@@ -177,6 +181,37 @@ TEST_P(StencilTechniques, AgreeWithBruteForceForEveryEyeAndLight) {
     }
 }
 
+// Eyes on and beside the sides of the shadow volumes themselves, where counting from the eye is a coin toss.
+TEST_P(StencilTechniques, AgreeWithBruteForceForEyesAtTheSidesOfVolumes) {
+  const auto geometry = shadow::makeGeometry(village());
+  ASSERT_TRUE(technique_->prepare(geometry));
+  const Truth truth{geometry->surfaces};
+  std::size_t attacks = 0;
+  for (const Light3& light : {lights()[0], lights()[2]}) {
+    const auto silhouette = shadow::findSilhouette(geometry->casters, scene::homogeneous(light.light, Vec3(0.0)));
+    for (std::size_t i = 0; i < silhouette.edges.size(); i += 3)
+      for (const double distance : {0.0, 1e-7, -1e-6, 1e-5, -1e-4, 1e-3}) {
+        const Vec3 a = geometry->casters.position(silhouette.edges[i].a),
+                   b = geometry->casters.position(silhouette.edges[i].b);
+        const Vec3 middle = glm::mix(a, b, 0.37);
+        const Vec3 away = glm::normalize(middle * silhouette.light.w - Vec3(silhouette.light));
+        const Vec3 normal = glm::normalize(glm::cross(b - a, away));
+        scene::Camera camera = cameraFrom(middle + 0.31 * away + distance * normal, {-0.4, 1.7, 0.6});
+        if (camera.eye.z < 0.05) continue;
+        camera.width = 40;
+        camera.height = 23;
+        const auto shading = technique_->shade({camera, std::span(&light.light, 1)});
+        ASSERT_TRUE(shading);
+        const auto expected = truth.mask(camera, light.light);
+        const auto difference = shadow::compare(shading->masks[0], expected, truth.edges(camera, expected), 1);
+        EXPECT_EQ(difference.farFromEdge, 0u)
+            << light.name << ", edge " << i << " at " << distance << ": " << shading->stats.lights[0].reason;
+        ++attacks;
+      }
+  }
+  EXPECT_GT(attacks, 40u);
+}
+
 // Neither the origin of the file nor the size of the scene may matter.
 TEST_P(StencilTechniques, AgreeWithBruteForceFarFromTheOriginAndInMillimetres) {
   for (const double scale : {1.0, 1000.0}) {
@@ -184,7 +219,8 @@ TEST_P(StencilTechniques, AgreeWithBruteForceFarFromTheOriginAndInMillimetres) {
     const Vec3 shift = scale == 1.0 ? Vec3(85000, 446000, 30) : Vec3(0.0);
     for (scene::Instance& i : s.instances) {
       i.toWorld = Mat4(Mat3(i.toWorld) * scale);
-      i.toWorld[3] = Vec4(scale * Vec3(village().instances[std::size_t(&i - s.instances.data())].toWorld[3]) + shift, 1.0);
+      i.toWorld[3] =
+          Vec4(scale * Vec3(village().instances[std::size_t(&i - s.instances.data())].toWorld[3]) + shift, 1.0);
     }
     const auto geometry = shadow::makeGeometry(s);
     ASSERT_TRUE(technique_->prepare(geometry));
@@ -211,10 +247,12 @@ TEST_P(StencilTechniques, SeeWhatTheCameraSees) {
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
       double t = 0.0;
-      const auto seen = truth.hit(camera.eye, rays.through(x + 0.5, y + 0.5), 0.0, std::numeric_limits<double>::infinity(), false, &t);
+      const auto seen = truth.hit(camera.eye, rays.through(x + 0.5, y + 0.5), 0.0,
+                                  std::numeric_limits<double>::infinity(), false, &t);
       if (shading->surface.triangle(x, y) == seen)
         EXPECT_TRUE(std::isinf(t) ? std::isinf(shading->surface.depth(x, y))
-                                  : std::abs(shading->surface.depth(x, y) - t) < 1e-3 * t) << x << " " << y;
+                                  : std::abs(shading->surface.depth(x, y) - t) < 1e-3 * t)
+            << x << " " << y;
       else
         ++different;
     }
@@ -335,9 +373,8 @@ TEST_P(StencilTechniques, SurviveEmptyScenesAndOddSizes) {
   EXPECT_EQ(tooWide.error().code, ErrorCode::device);
 }
 
-INSTANTIATE_TEST_SUITE_P(Gl, StencilTechniques, ::testing::Values(makeZFail, makeZPass), [](const auto& which) {
-  return which.index == 0 ? "zfail" : "zpass";
-});
+INSTANTIATE_TEST_SUITE_P(Gl, StencilTechniques, ::testing::Values(makeZFail, makeZPass),
+                         [](const auto& which) { return which.index == 0 ? "zfail" : "zpass"; });
 
 TEST(GlTechniques, AreTheTwoWaysToCount) {
   const auto entries = glTechniques();
