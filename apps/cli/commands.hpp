@@ -1,0 +1,15 @@
+#pragma once
+
+#include "options.hpp"
+
+// The commands, each in a file of its own. `add...` declares its options on `app` and returns what to run.
+namespace umbrage::cli {
+
+[[nodiscard]] Run addInfo(CLI::App& app);
+[[nodiscard]] Run addTechniques(CLI::App& app);
+[[nodiscard]] Run addSun(CLI::App& app);
+[[nodiscard]] Run addRender(CLI::App& app);
+[[nodiscard]] Run addCompare(CLI::App& app);
+[[nodiscard]] Run addSample(CLI::App& app);
+
+}  // namespace umbrage::cli

@@ -1,0 +1,137 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "drawing.hpp"
+#include "json.hpp"
+#include "outputs.hpp"
+#include "umbrage/png/png.hpp"
+
+namespace umbrage::cli {
+namespace {
+
+constexpr const char* kTruth = "ray_traced";
+
+struct CompareOptions {
+  SceneOptions scene;
+  ViewOptions view;
+  std::string technique;
+  std::string against = kTruth;
+  std::string picture;
+  bool json = false;
+};
+
+struct Comparison {
+  std::string technique, against;  ///< names, "auto" resolved
+  int tolerance = 1;
+  std::size_t pixels = 0;
+  std::vector<shadow::MaskDifference> lights;
+
+  [[nodiscard]] bool agree() const {
+    return std::all_of(lights.begin(), lights.end(), [](const auto& light) { return light.farFromEdge == 0; });
+  }
+};
+
+// Edges are those of the truth where one of the two is it: a lone wrong pixel must not count as an edge of its own.
+Comparison compareMasks(const Drawing& a, const Drawing& b) {
+  const bool swapped = a.traits.name == kTruth;
+  const auto& masks = (swapped ? b : a).shading.masks;
+  const auto& truths = (swapped ? a : b).shading.masks;
+  Comparison result{a.traits.name, b.traits.name, std::max(a.traits.edgeTolerancePx, b.traits.edgeTolerancePx), 0, {}};
+  result.pixels = a.shading.surface.triangle.size();
+  for (std::size_t i = 0; i < masks.size(); ++i)
+    result.lights.push_back(shadow::compare(masks[i], truths[i], shadow::edgePixels(truths[i]), result.tolerance));
+  return result;
+}
+
+// The mask of --against, pale, with every pixel that differs for any light in red.
+image::RgbImage differencePicture(const Drawing& a, const Drawing& b) {
+  const auto& seen = b.shading.surface.triangle;
+  image::RgbImage picture(seen.width(), seen.height(), image::Rgb8{255, 255, 255});
+  for (std::size_t light = 0; light < b.shading.masks.size(); ++light) {
+    const auto mine = shadow::fileImage(a.shading.masks[light]);
+    const auto theirs = shadow::fileImage(b.shading.masks[light]);
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      auto& pixel = picture.pixels()[i];
+      if (mine.pixels()[i] != theirs.pixels()[i])
+        pixel = {220, 0, 0};
+      else if (light == 0)
+        pixel.r = pixel.g = pixel.b = static_cast<std::uint8_t>(160 + theirs.pixels()[i] / 3);
+    }
+  }
+  return picture;
+}
+
+std::string comparisonText(const Comparison& comparison, const View& view) {
+  std::string text = fmt::format("{} against {}, {} x {} pixels\n", comparison.technique, comparison.against,
+                                 view.camera.width, view.camera.height);
+  for (std::size_t i = 0; i < comparison.lights.size(); ++i) {
+    const auto& light = comparison.lights[i];
+    text += fmt::format("light {:<3} {:>8} differ of {} with a surface, {:>8} farther than {} px from an edge   {}\n",
+                        i, light.differing, light.covered, light.farFromEdge, comparison.tolerance,
+                        shortName(view.lights[i].name));
+  }
+  return text + (comparison.agree() ? "they agree\n" : "they do not agree\n");
+}
+
+std::string comparisonJson(const Comparison& comparison) {
+  Json json{{"technique", comparison.technique},
+            {"against", comparison.against},
+            {"edge_tolerance_px", comparison.tolerance},
+            {"pixels", comparison.pixels},
+            {"agree", comparison.agree()}};
+  json["lights"] = Json::array();
+  for (const auto& light : comparison.lights)
+    json["lights"].push_back(
+        {{"differing", light.differing}, {"far_from_edge", light.farFromEdge}, {"covered", light.covered}});
+  return jsonText(json);
+}
+
+Result<void> writePicture(const std::string& path, const Drawing& a, const Drawing& b) {
+  if (path.empty()) return {};
+  return writeOutputs({{path, [&](const std::string& file) { return png::write(file, differencePicture(a, b)); }}});
+}
+
+Result<void> checkPicture(const std::string& path) {
+  if (path.empty()) return {};
+  if (const auto png = checkExtension("-o", path, {".png"}); !png) return png;
+  return checkOutputs({path});
+}
+
+Result<Outcome> run(const CompareOptions& options, const Console& console) {
+  if (const auto open = checkPicture(options.picture); !open) return tl::unexpected(open.error());
+  auto scene = loadScene(options.scene, console);
+  if (!scene) return tl::unexpected(scene.error());
+  const auto view = makeView(std::move(*scene), options.view);
+  if (!view) return tl::unexpected(view.error());
+  const auto geometry = shadow::makeGeometry(view->scene);
+  const auto a = draw(options.technique, geometry, *view);
+  if (!a) return tl::unexpected(a.error());
+  const auto b = draw(options.against, geometry, *view);
+  if (!b) return tl::unexpected(b.error());
+  if (const auto written = writePicture(options.picture, *a, *b); !written) return tl::unexpected(written.error());
+  const Comparison comparison = compareMasks(*a, *b);
+  return Outcome{options.json ? comparisonJson(comparison) : comparisonText(comparison, *view),
+                 comparison.agree() ? 0 : 1};
+}
+
+}  // namespace
+
+Run addCompare(CLI::App& app) {
+  const auto options = std::make_shared<CompareOptions>();
+  addSceneOptions(app, options->scene);
+  addValue(app, "--technique", "A", "The technique to judge (see umbrage techniques)", options->technique,
+           parseTechnique)
+      ->required();
+  addValue(app, "--against", "B", "The technique to compare it with (default ray_traced)", options->against,
+           parseTechnique);
+  addWord(app, "-o,--output", "OUT.png", "A picture of the differences, in red", options->picture);
+  app.add_flag("--json", options->json, "As JSON");
+  addCameraOptions(app, options->view);
+  addLightOptions(app, options->view);
+  addGroundOption(app, options->view);
+  return [options](const Console& console) { return run(*options, console); };
+}
+
+}  // namespace umbrage::cli

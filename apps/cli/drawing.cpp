@@ -1,0 +1,37 @@
+#include "drawing.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace umbrage::cli {
+
+Result<Drawing> draw(const std::string& technique, const std::shared_ptr<const shadow::Geometry>& geometry,
+                     const View& view) {
+  Drawing drawing;
+  Stopwatch watch;
+  auto chosen = chooseTechnique(technique);
+  if (!chosen) return tl::unexpected(chosen.error());
+  drawing.traits = chosen->technique->traits();
+  drawing.reason = chosen->reason;
+  drawing.createMs = watch.lap();
+  if (const auto prepared = chosen->technique->prepare(geometry); !prepared) return tl::unexpected(prepared.error());
+  drawing.prepareMs = watch.lap();
+  auto shading = chosen->technique->shade({view.camera, view.lights});
+  if (!shading) return tl::unexpected(shading.error());
+  drawing.shadeMs = watch.lap();
+  drawing.shading = std::move(*shading);
+  return drawing;
+}
+
+std::vector<std::string> maskFiles(const std::string& path, std::size_t lights) {
+  if (lights == 1) return {path};
+  const std::filesystem::path file(path);
+  std::vector<std::string> files;
+  for (std::size_t i = 0; i < lights; ++i)
+    files.push_back(
+        (file.parent_path() / fmt::format("{}-{}{}", file.stem().string(), i, file.extension().string())).string());
+  return files;
+}
+
+}  // namespace umbrage::cli

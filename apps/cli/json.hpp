@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "umbrage/math/box.hpp"
+
+namespace umbrage::cli {
+
+/// Keys stay in the order in which they are set, so files read well and never change by chance.
+using Json = nlohmann::ordered_json;
+
+[[nodiscard]] inline Json toJson(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+/// Indented text with a final newline; bytes that are no UTF-8 (from a hostile file) are replaced.
+[[nodiscard]] inline std::string jsonText(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace umbrage::cli

@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <csignal>
+#include <exception>
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "arguments.hpp"
+#include "commands.hpp"
+
+namespace umbrage::cli {
+namespace {
+
+struct Command {
+  const char* name;
+  const char* help;
+  Run (*add)(CLI::App&);
+};
+constexpr Command kCommands[] = {
+    {"info", "Triangles, edges, parts, bounds, materials, lights and warnings of a scene", addInfo},
+    {"techniques", "Every technique, its traits, and whether it runs on this machine", addTechniques},
+    {"sun", "Where the sun stands at a place and time", addSun},
+    {"render", "A picture of a scene with exact shadows", addRender},
+    {"compare", "Two techniques on one picture: which pixels differ", addCompare},
+    {"sample", "Writes one of the scenes that come with the program", addSample},
+};
+
+int fail(const Console& console, const Error& error) {
+  console.error(error);
+  return exitCode(error.code);
+}
+
+int run(const Run& command, const Console& console) {
+  const auto outcome = command(console);
+  if (!outcome) return fail(console, outcome.error());
+  if (const auto printed = print(outcome->text); !printed) return fail(console, printed.error());
+  return outcome->code;
+}
+
+std::string commandNames() {
+  std::string names;
+  for (const auto& command : kCommands) names += (names.empty() ? "" : ", ") + std::string(command.name);
+  return names;
+}
+
+// What CLI11 calls a missing subcommand is mostly a mistyped one.
+std::string describe(const CLI::ParseError& problem, const std::string& command,
+                     const std::vector<std::string>& words) {
+  const auto word = std::find_if(words.begin(), words.end(), [](const auto& w) { return !w.starts_with('-'); });
+  if (!command.empty()) return problem.what();
+  if (word == words.end()) return fmt::format("a command is missing; there are {}", commandNames());
+  return fmt::format("there is no command '{}'; there are {}", *word, commandNames());
+}
+
+// CLI11's many exit codes become ours: help and version are no errors, all else is usage.
+int explain(const CLI::App& app, const CLI::ParseError& problem, const std::vector<std::string>& words) {
+  if (problem.get_name() == "CallForVersion") return print(fmt::format("{}\n", problem.what())) ? 0 : 3;
+  if (problem.get_name() == "CallForHelp") return print(app.help()) ? 0 : 3;
+  const auto given = app.get_subcommands();
+  const auto command = given.empty() ? std::string() : given.front()->get_name();
+  const auto help = command.empty() ? std::string("umbrage --help") : fmt::format("umbrage {} --help", command);
+  Console().error({ErrorCode::usage, fmt::format("{}\nSee: {}", describe(problem, command, words), help), {}});
+  return exitCode(ErrorCode::usage);
+}
+
+int main(const std::vector<std::string>& words) {
+  CLI::App app("Exact shadows of 3D scenes.", "umbrage");
+  app.set_version_flag("--version", "umbrage " UMBRAGE_VERSION);
+  bool quiet = false, verbose = false;
+  app.add_flag("--quiet", quiet, "No warnings and no progress");
+  app.add_flag("--verbose", verbose, "Say what is decided and how long it takes");
+  app.require_subcommand(1);
+  app.fallthrough();
+
+  std::vector<std::pair<CLI::App*, Run>> commands;
+  for (const auto& command : kCommands) {
+    CLI::App* sub = app.add_subcommand(command.name, command.help);
+    sub->footer("--quiet and --verbose may be given to every command.");
+    commands.emplace_back(sub, command.add(*sub));
+  }
+  const auto named = [&]() -> const Run* {
+    for (const auto& [sub, action] : commands)
+      if (sub->parsed()) return &action;
+    return nullptr;
+  };
+
+  try {
+    auto reversed = completeGround(words);
+    std::reverse(reversed.begin(), reversed.end());
+    app.parse(std::move(reversed));
+  } catch (const CLI::ParseError& problem) {
+    return explain(app, problem, words);
+  }
+  return run(*named(), Console(quiet, verbose));
+}
+
+}  // namespace
+}  // namespace umbrage::cli
+
+int main(int count, char** words) {
+  // A reader of our output that goes away is no reason to be killed; writes report it.
+  std::signal(SIGPIPE, SIG_IGN);
+  using namespace umbrage;
+  try {
+    return cli::main(std::vector<std::string>(words + 1, words + count));
+  } catch (const std::bad_alloc&) {
+    cli::Console().error({ErrorCode::input, "memory is exhausted; try a smaller --size or a smaller scene", {}});
+  } catch (const std::exception& problem) {
+    cli::Console().error({ErrorCode::input, std::string("unexpected: ") + problem.what(), {}});
+  }
+  return exitCode(ErrorCode::input);
+}

@@ -1,0 +1,74 @@
+#include "outputs.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "console.hpp"
+
+namespace umbrage::cli {
+namespace {
+
+Result<void> checkWritable(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_directory(status)) return fail(ErrorCode::output, "is a folder, not a file", path.string());
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    return fail(ErrorCode::output, "is not a regular file and is left alone", path.string());
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  if (!std::filesystem::is_directory(folder, ignored))
+    return fail(ErrorCode::output, fmt::format("cannot be written: there is no folder {}", folder.string()),
+                path.string());
+  if (::access(folder.c_str(), W_OK) != 0)
+    return fail(ErrorCode::output,
+                fmt::format("cannot be written: the folder {} is closed to writing", folder.string()), path.string());
+  return {};
+}
+
+std::string absolute(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::weakly_canonical(path, ignored).string();
+}
+
+}  // namespace
+
+Result<void> checkOutputs(const std::vector<std::string>& paths) {
+  std::vector<std::string> seen;
+  for (const auto& path : paths) {
+    if (const auto writable = checkWritable(path); !writable) return writable;
+    const auto place = absolute(path);
+    if (std::find(seen.begin(), seen.end(), place) != seen.end())
+      return fail(ErrorCode::usage, "is named for two outputs; give each its own name", path);
+    seen.push_back(place);
+  }
+  return {};
+}
+
+Result<void> checkExtension(const std::string& option, const std::string& path,
+                            const std::vector<std::string>& extensions) {
+  const bool known = std::any_of(extensions.begin(), extensions.end(),
+                                 [&](const std::string& extension) { return path.ends_with(extension); });
+  if (known) return {};
+  return fail(ErrorCode::usage, fmt::format("{}: '{}' must end in {}", option, path, fmt::join(extensions, " or ")));
+}
+
+Result<void> writeOutputs(const std::vector<Output>& outputs) {
+  const DeferredSignals whole;
+  std::vector<std::string> written;
+  for (const auto& output : outputs) {
+    auto done = output.write(output.path);
+    if (!done) {
+      Error error = done.error();
+      if (!written.empty()) error.message += fmt::format(" (written before it: {})", fmt::join(written, ", "));
+      return tl::unexpected(error);
+    }
+    written.push_back(output.path);
+  }
+  return {};
+}
+
+}  // namespace umbrage::cli

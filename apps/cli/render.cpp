@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "drawing.hpp"
+#include "outputs.hpp"
+#include "stats.hpp"
+#include "umbrage/base/file.hpp"
+#include "umbrage/png/png.hpp"
+#include "umbrage/shadow/composite.hpp"
+
+namespace umbrage::cli {
+namespace {
+
+struct RenderOptions {
+  SceneOptions scene;
+  ViewOptions view;
+  std::string technique = "auto";
+  std::string picture, mask, stats;  ///< paths; empty: not asked for
+};
+
+Result<void> checkFiles(const RenderOptions& options) {
+  if (options.picture.empty() && options.mask.empty() && options.stats.empty())
+    return fail(ErrorCode::usage, "nothing to write: give -o OUT.png, --mask MASK.png or --stats STATS.json");
+  std::vector<std::string> paths;
+  for (const auto& [option, path] : {std::pair("-o", options.picture), std::pair("--mask", options.mask)}) {
+    if (path.empty()) continue;
+    if (const auto png = checkExtension(option, path, {".png"}); !png) return png;
+    paths.push_back(path);
+  }
+  if (!options.stats.empty()) paths.push_back(options.stats);
+  return checkOutputs(paths);
+}
+
+std::vector<Output> outputs(const RenderOptions& options, const image::RgbImage& picture, const Stats& stats) {
+  std::vector<Output> list;
+  if (!options.picture.empty())
+    list.push_back({options.picture, [&picture](const std::string& path) { return png::write(path, picture); }});
+  const auto& masks = stats.drawing.shading.masks;
+  const auto files = options.mask.empty() ? std::vector<std::string>() : maskFiles(options.mask, masks.size());
+  for (std::size_t i = 0; i < files.size(); ++i)
+    list.push_back(
+        {files[i], [&mask = masks[i]](const std::string& path) { return png::write(path, shadow::fileImage(mask)); }});
+  if (!options.stats.empty())
+    list.push_back({options.stats, [&stats](const std::string& path) { return writeFile(path, statsJson(stats)); }});
+  return list;
+}
+
+Result<Outcome> run(const RenderOptions& options, const Console& console) {
+  if (const auto open = checkFiles(options); !open) return tl::unexpected(open.error());
+  Stopwatch watch;
+  auto scene = loadScene(options.scene, console);
+  if (!scene) return tl::unexpected(scene.error());
+  const double loadMs = watch.lap();
+  const auto view = makeView(std::move(*scene), options.view);
+  if (!view) return tl::unexpected(view.error());
+  const auto geometry = shadow::makeGeometry(view->scene);
+  const double geometryMs = watch.lap();
+  const auto drawing = draw(options.technique, geometry, *view);
+  if (!drawing) return tl::unexpected(drawing.error());
+  watch.lap();
+  image::RgbImage picture;
+  if (!options.picture.empty())
+    picture = shadow::composite(view->scene, geometry->surfaces, view->camera, drawing->shading.surface, view->lights,
+                                drawing->shading.masks, {.ambient = options.view.ambient});
+  const Stats stats{*view,
+                    *geometry,
+                    *drawing,
+                    {{"load", loadMs},
+                     {"geometry", geometryMs},
+                     {"start", drawing->createMs},
+                     {"prepare", drawing->prepareMs},
+                     {"shade", drawing->shadeMs},
+                     {"composite", watch.lap()}}};
+  console.detail(statsText(stats));
+  if (const auto written = writeOutputs(outputs(options, picture, stats)); !written)
+    return tl::unexpected(written.error());
+  return Outcome{};
+}
+
+}  // namespace
+
+Run addRender(CLI::App& app) {
+  const auto options = std::make_shared<RenderOptions>();
+  addSceneOptions(app, options->scene);
+  addWord(app, "-o,--output", "OUT.png", "The picture", options->picture);
+  addWord(app, "--mask", "MASK.png",
+          "The light mask: 255 lit, 0 not, 128 no surface; with several lights MASK-0.png, ...", options->mask);
+  addWord(app, "--stats", "STATS.json", "What was done, why, and how long it took", options->stats);
+  addValue(app, "--technique", "NAME|auto", "How shadows are computed (see umbrage techniques; default auto)",
+           options->technique, parseTechnique);
+  addCameraOptions(app, options->view);
+  addLightOptions(app, options->view);
+  addGroundOption(app, options->view);
+  return [options](const Console& console) { return run(*options, console); };
+}
+
+}  // namespace umbrage::cli

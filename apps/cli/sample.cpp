@@ -1,0 +1,46 @@
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "outputs.hpp"
+#include "umbrage/io/write.hpp"
+#include "umbrage/samples/samples.hpp"
+
+namespace umbrage::cli {
+namespace {
+
+struct SampleOptions {
+  std::string name;
+  std::string output;
+  bool list = false;
+};
+
+std::string listText() {
+  std::string text;
+  for (const auto& sample : samples::list()) text += fmt::format("{:<12} {}\n", sample.name, sample.summary);
+  return text;
+}
+
+Result<Outcome> run(const SampleOptions& options) {
+  if (options.list) return Outcome{listText(), 0};
+  if (options.name.empty()) return fail(ErrorCode::usage, "which sample? See: umbrage sample --list");
+  if (options.output.empty()) return fail(ErrorCode::usage, "-o FILE is missing: .glb, .iv, .city.json or .obj");
+  const auto scene = samples::make(options.name);
+  if (!scene) return tl::unexpected(scene.error());
+  if (const auto open = checkOutputs({options.output}); !open) return tl::unexpected(open.error());
+  const auto written =
+      writeOutputs({{options.output, [&](const std::string& path) { return io::writeScene(*scene, path); }}});
+  if (!written) return tl::unexpected(written.error());
+  return Outcome{fmt::format("{}  {} triangles\n", options.output, scene::triangleCount(*scene)), 0};
+}
+
+}  // namespace
+
+Run addSample(CLI::App& app) {
+  const auto options = std::make_shared<SampleOptions>();
+  addWord(app, "NAME", "", "Which sample", options->name);
+  addWord(app, "-o,--output", "FILE", "Where to write it: .glb, .iv, .city.json or .obj", options->output);
+  app.add_flag("--list", options->list, "The names of the samples");
+  return [options](const Console&) { return run(*options); };
+}
+
+}  // namespace umbrage::cli

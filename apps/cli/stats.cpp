@@ -1,0 +1,94 @@
+#include "stats.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "json.hpp"
+
+namespace umbrage::cli {
+namespace {
+
+std::size_t litPixels(const shadow::LightMask& mask) {
+  return static_cast<std::size_t>(
+      std::count(mask.light.pixels().begin(), mask.light.pixels().end(), std::uint8_t{255}));
+}
+
+std::size_t coveredPixels(const shadow::SurfaceBuffer& seen) {
+  const auto pixels = seen.triangle.pixels();
+  return seen.triangle.size() - static_cast<std::size_t>(std::count(pixels.begin(), pixels.end(), shadow::kNoTriangle));
+}
+
+Json castersJson(const shadow::CasterSet& casters) {
+  return {{"triangles", casters.triangles.size()},      {"edges", casters.edges.size()},
+          {"border_edges", casters.report.borderEdges}, {"non_manifold_edges", casters.report.nonManifoldEdges},
+          {"components", casters.componentCount},       {"topology", mesh::name(casters.report.topology)}};
+}
+
+Json lightJson(const scene::Light& light, const shadow::LightStats& stats, const shadow::LightMask& mask) {
+  return {{"light", light.name},
+          {"technique", stats.method},
+          {"reason", stats.reason},
+          {"casters_by_zfail", stats.castersByZFail},
+          {"eye_count", stats.eyeCount},
+          {"edges_tested", stats.edgesTested},
+          {"silhouette_edges", stats.silhouetteEdges},
+          {"volume_triangles", stats.volumeTriangles},
+          {"lit_pixels", litPixels(mask)}};
+}
+
+Json phasesJson(const std::vector<shadow::PhaseTime>& phases) {
+  Json json = Json::object();
+  for (const auto& phase : phases) json[phase.name] = json.value(phase.name, 0.0) + phase.milliseconds;
+  return json;
+}
+
+double total(const std::vector<shadow::PhaseTime>& phases) {
+  double sum = 0.0;
+  for (const auto& phase : phases) sum += phase.milliseconds;
+  return sum;
+}
+
+}  // namespace
+
+std::string statsJson(const Stats& stats) {
+  const auto& camera = stats.view.camera;
+  const auto& shading = stats.drawing.shading;
+  const Graphics graphics = stats.drawing.traits.needsGraphics ? findGraphics() : Graphics{};
+  Json json{{"umbrage", UMBRAGE_VERSION},
+            {"scene", stats.view.scene.source},
+            {"technique", stats.drawing.traits.name},
+            {"reason", stats.drawing.reason},
+            {"gl_renderer", graphics.renderer.empty() ? Json(nullptr) : Json(graphics.renderer)},
+            {"size", {camera.width, camera.height}},
+            {"covered_pixels", coveredPixels(shading.surface)},
+            {"triangles", stats.geometry.surfaces.triangles.size()},
+            {"degenerate_triangles", stats.geometry.surfaces.dropped},
+            {"casters", castersJson(stats.geometry.casters)}};
+  json["camera"] = {{"reason", stats.view.cameraReason},
+                    {"eye", toJson(camera.eye)},
+                    {"target", toJson(camera.target)},
+                    {"fov_degrees", camera.fovY.degrees()}};
+  json["light_reason"] = stats.view.lightReason;
+  json["lights"] = Json::array();
+  for (std::size_t i = 0; i < shading.stats.lights.size(); ++i)
+    json["lights"].push_back(lightJson(stats.view.lights[i], shading.stats.lights[i], shading.masks[i]));
+  json["phases_ms"] = phasesJson(stats.phases);
+  json["shade_phases_ms"] = phasesJson(shading.stats.phases);
+  json["total_ms"] = total(stats.phases);
+  return jsonText(json);
+}
+
+std::string statsText(const Stats& stats) {
+  std::string text = fmt::format("technique  {} ({})\n", stats.drawing.traits.name, stats.drawing.reason);
+  text += fmt::format("camera     {}\n", stats.view.cameraReason);
+  text += fmt::format("lights     {} ({})\n", stats.view.lights.size(), stats.view.lightReason);
+  text += fmt::format("casters    {} triangles, {} edges\n", stats.geometry.casters.triangles.size(),
+                      stats.geometry.casters.edges.size());
+  for (const auto& phase : stats.phases) text += fmt::format("{:<10} {:8.1f} ms\n", phase.name, phase.milliseconds);
+  for (const auto& phase : stats.drawing.shading.stats.phases)
+    text += fmt::format("  {:<18} {:8.1f} ms\n", phase.name, phase.milliseconds);
+  return text + fmt::format("{:<10} {:8.1f} ms", "total", total(stats.phases));
+}
+
+}  // namespace umbrage::cli

@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+
+#include "choice.hpp"
+#include "commands.hpp"
+#include "json.hpp"
+
+namespace umbrage::cli {
+namespace {
+
+/// A technique as this machine sees it.
+struct Row {
+  shadow::Traits traits;
+  std::string obstacle;  ///< why it cannot run here; empty: it can
+};
+
+std::vector<Row> gather() {
+  std::vector<Row> rows;
+  for (const auto& entry : allTechniques()) {
+    const auto made = entry.create();
+    rows.push_back({entry.traits, made ? std::string() : made.error().text()});
+  }
+  return rows;
+}
+
+Json rowsJson(const std::vector<Row>& rows) {
+  Json list = Json::array();
+  for (const auto& [traits, obstacle] : rows)
+    list.push_back({{"name", traits.name},
+                    {"summary", traits.summary},
+                    {"soft", traits.soft},
+                    {"tinted", traits.tinted},
+                    {"needs_closed", traits.needsClosed},
+                    {"needs_graphics", traits.needsGraphics},
+                    {"edge_tolerance_px", traits.edgeTolerancePx},
+                    {"available", obstacle.empty()},
+                    {"reason", obstacle.empty() ? Json(nullptr) : Json(obstacle)}});
+  return list;
+}
+
+std::string traitsText(const shadow::Traits& traits) {
+  return fmt::format("{}; {}; {}; {}; edges within {} px", traits.needsGraphics ? "OpenGL" : "CPU",
+                     traits.soft ? "soft and hard shadows" : "hard shadows",
+                     traits.tinted ? "tinted glass" : "no tinted glass",
+                     traits.needsClosed ? "closed casters only" : "any caster", traits.edgeTolerancePx);
+}
+
+std::string rowsText(const std::vector<Row>& rows) {
+  const Graphics graphics = findGraphics();
+  std::string text;
+  for (const auto& [traits, obstacle] : rows) {
+    text += fmt::format("{:<12} {}\n", traits.name, traits.summary);
+    text += fmt::format("{:<12} {}\n", "", traitsText(traits));
+    if (!obstacle.empty()) text += fmt::format("{:<12} cannot run here: {}\n", "", obstacle);
+  }
+  text += fmt::format("{:<12} {}\n", "graphics",
+                      graphics.renderer.empty() ? "none: " + graphics.reason : graphics.renderer);
+  return printable(text);
+}
+
+}  // namespace
+
+Run addTechniques(CLI::App& app) {
+  const auto json = std::make_shared<bool>(false);
+  app.add_flag("--json", *json, "As JSON");
+  return [json](const Console&) -> Result<Outcome> {
+    const auto rows = gather();
+    return Outcome{*json ? jsonText(rowsJson(rows)) : rowsText(rows), 0};
+  };
+}
+
+}  // namespace umbrage::cli

@@ -1,0 +1,82 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "options.hpp"
+
+namespace umbrage::cli {
+namespace {
+
+// The sun where nobody names a light: high enough for short shadows, beside the default camera so that two walls
+// differ.
+constexpr double kSunAzimuth = 200.0;
+constexpr double kSunElevation = 45.0;
+
+// Surface and depth, masks and their pictures, with room for what a technique keeps beside them.
+constexpr double kBytesPerPixel = 24.0;
+constexpr double kBytesPerPixelAndLight = 4.0;
+constexpr double kMemory = 1.5 * 1024 * 1024 * 1024;
+
+Result<void> checkMemory(const Size& size, std::size_t lights) {
+  const double bytes =
+      double(size.width) * double(size.height) * (kBytesPerPixel + kBytesPerPixelAndLight * double(lights));
+  if (bytes <= kMemory) return {};
+  return fail(ErrorCode::usage,
+              fmt::format("--size: {}x{} with {} lights needs {:.1f} GiB of pictures; choose a smaller size or "
+                          "fewer lights",
+                          size.width, size.height, lights, bytes / (1024.0 * 1024.0 * 1024.0)));
+}
+
+scene::Light defaultSun(scene::UpAxis up, Angle north) {
+  const auto azimuth = Angle::degrees(kSunAzimuth);
+  const auto elevation = Angle::degrees(kSunElevation);
+  const Vec3 towards =
+      cos(elevation) * (cos(azimuth) * scene::northVector(up, north) + sin(azimuth) * scene::eastVector(up, north)) +
+      sin(elevation) * scene::upVector(up);
+  return {scene::DirectionalLight{-towards}, Vec3(1.0), 1.0, "default sun"};
+}
+
+Result<scene::Camera> makeCamera(const scene::Scene& scene, const ViewOptions& options) {
+  scene::Camera camera = scene::frameAll(scene::bounds(scene), scene.up, scene.northOffset, options.fov,
+                                         options.size.width, options.size.height);
+  if (options.eye) camera.eye = *options.eye;
+  if (options.target) camera.target = *options.target;
+  const double distance = glm::length(camera.target - camera.eye);
+  if (!(distance > 0.0) || !std::isfinite(distance))
+    return fail(ErrorCode::usage, "--eye and the target are the same point; give another --target x,y,z");
+  return camera;
+}
+
+std::string cameraReason(const ViewOptions& options) {
+  if (options.eye && options.target) return "as asked";
+  if (options.eye) return "eye as asked, at the scene's centre";
+  if (options.target) return "the eye that frames the scene, at the target asked for";
+  return "the whole scene from the south-west at 30 degrees";
+}
+
+}  // namespace
+
+Result<View> makeView(scene::Scene scene, const ViewOptions& options) {
+  View view;
+  // Framed before the ground is added: the ground is 64 times as large as the scene.
+  const auto camera = makeCamera(scene, options);
+  if (!camera) return tl::unexpected(camera.error());
+  view.camera = *camera;
+  view.cameraReason = cameraReason(options);
+  if (!options.lights.empty()) {
+    view.lights = options.lights;
+    view.lightReason = "as asked";
+  } else if (!scene.lights.empty()) {
+    view.lights = scene.lights;
+    view.lightReason = "the scene's own";
+  } else {
+    view.lights = {defaultSun(scene.up, scene.northOffset)};
+    view.lightReason =
+        fmt::format("no light given: a sun at azimuth {:.0f}, {:.0f} degrees high", kSunAzimuth, kSunElevation);
+  }
+  if (const auto fits = checkMemory(options.size, view.lights.size()); !fits) return tl::unexpected(fits.error());
+  view.scene = options.ground ? scene::withGround(std::move(scene), options.ground->height) : std::move(scene);
+  return view;
+}
+
+}  // namespace umbrage::cli

@@ -1,0 +1,221 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+#include "umbrage/png/png.hpp"
+
+// Pictures and masks against what the contract says they are, through files alone.
+namespace umbrage::cli_test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+using Words = std::vector<std::string>;
+using Json = nlohmann::json;
+
+Json readJson(const std::string& path) {
+  std::ifstream in(path);
+  return Json::parse(in, nullptr, false);
+}
+
+/// The grey values of a mask file.
+class Mask {
+ public:
+  explicit Mask(const std::string& path) {
+    auto picture = png::read(path);
+    if (picture)
+      picture_ = *picture;
+    else
+      ADD_FAILURE() << picture.error().text();
+  }
+  [[nodiscard]] int at(int x, int y) const { return picture_(x, y).r; }
+  [[nodiscard]] int width() const { return picture_.width(); }
+  [[nodiscard]] int height() const { return picture_.height(); }
+  [[nodiscard]] std::set<int> values() const {
+    std::set<int> found;
+    for (const auto& pixel : picture_.pixels()) {
+      EXPECT_TRUE(pixel.r == pixel.g && pixel.g == pixel.b && pixel.a == 255);
+      found.insert(pixel.r);
+    }
+    return found;
+  }
+
+ private:
+  image::RgbaImage picture_;
+};
+
+class RenderCommand : public CliTest {
+ protected:
+  /// Looks straight down from z = 200; on the plane z = 0 the picture shows x and y in [-8, 8].
+  [[nodiscard]] Words overhead(const std::string& scene, const std::string& light, const std::string& ground) const {
+    const double fov = 2.0 * std::atan(8.0 / 200.0) * 180.0 / std::numbers::pi;
+    return {
+        "render", scene,     "--eye",   "0,0,200", "--target",           "0,0,0",  "--fov",         std::to_string(fov),
+        "--size", "400x400", "--light", light,     "--ground=" + ground, "--mask", file("mask.png")};
+  }
+  /// First and last pixel column with value 0 right of the box in the middle row, as x on the plane at depth `depth`.
+  [[nodiscard]] std::pair<double, double> shadow(double ground) const {
+    const Mask mask(file("mask.png"));
+    const double half = 8.0 * (200.0 - ground) / 200.0;
+    const auto x = [&](double column) { return half * (2.0 * column / mask.width() - 1.0); };
+    int first = mask.width(), last = -1;
+    for (int i = mask.width() / 2; i < mask.width(); ++i)
+      if (mask.at(i, mask.height() / 2) == 0) {
+        first = std::min(first, i);
+        last = i;
+      }
+    return {x(first), x(last + 1)};
+  }
+};
+
+// The one number nobody can argue with: a box of height h under a sun at elevation a casts h / tan a.
+TEST_F(RenderCommand, ShadowLengthIsHeightOverTangent) {
+  const auto box = writeBox("box.off", 2.0);
+  for (const auto* technique : {"ray_traced", "auto"})
+    for (const double degrees : {25.0, 35.0, 45.0, 60.0, 75.0}) {
+      const double a = degrees * std::numbers::pi / 180.0;
+      auto words =
+          overhead(box, "directional:" + std::to_string(std::cos(a)) + ",0," + std::to_string(-std::sin(a)), "0");
+      words.insert(words.end(), {"--technique", technique});
+      const Ran ran = umbrage(words);
+      ASSERT_EQ(ran.code, 0) << ran.err;
+      // One pixel is 0.04 wide; the top of the box hides a hundredth of its own size of the ground beside it.
+      EXPECT_NEAR(shadow(0.0).second, 1.0 + 2.0 / std::tan(a), 0.04) << technique << " " << degrees;
+      EXPECT_NEAR(shadow(0.0).first, 1.0, 0.04 + 0.02) << technique << " " << degrees;
+    }
+}
+
+TEST_F(RenderCommand, TheGroundLiesWhereItIsAsked) {
+  const auto box = writeBox("box.off", 2.0);
+  const Ran ran = umbrage(overhead(box, "directional:1,0,-1", "-2"));
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  // The box floats 2 above the ground: its shadow is shifted by 2 to 4.
+  EXPECT_NEAR(shadow(-2.0).second, 5.0, 0.05);
+  EXPECT_NEAR(shadow(-2.0).first, 1.02, 0.06);
+}
+
+TEST_F(RenderCommand, PixelsLookThroughTheirCentres) {
+  // A square x, z in [0, 1] in the plane y = 0, seen along +y from 10 away with half height 10: a pixel is 0.5 wide.
+  const auto scene = write("square.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 0 1\n0 0 1\n4 0 1 2 3\n");
+  const Ran ran = umbrage({"render", scene, "--eye", "0,-10,0", "--target", "0,0,0", "--fov", "90", "--size", "40x40",
+                           "--mask", file("mask.png"), "--light", "point:0,-10,0"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Mask mask(file("mask.png"));
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 40; ++x)
+      EXPECT_EQ(mask.at(x, y), (x == 20 || x == 21) && (y == 18 || y == 19) ? 255 : 128) << x << "," << y;
+}
+
+TEST_F(RenderCommand, MaskValuesAreThree) {
+  const auto box = writeBox();
+  ASSERT_EQ(umbrage({"render", box, "--mask", file("mask.png"), "--size", "120x80"}).code, 0);
+  EXPECT_THAT(Mask(file("mask.png")).values(), ElementsAre(0, 128, 255));
+}
+
+TEST_F(RenderCommand, ASpotLightsItsConeOnly) {
+  // A ground alone, seen from above; the spot 10 above the middle reaches a circle of radius 10 tan 20.
+  const auto scene = write("square.off", "OFF\n4 1 0\n-50 -50 0\n50 -50 0\n50 50 0\n-50 50 0\n4 0 1 2 3\n");
+  auto words = overhead(scene, "spot:0,0,10,0,0,-1,20", "-60");
+  ASSERT_EQ(umbrage(words).code, 0);
+  const Mask mask(file("mask.png"));
+  const double radius = 10.0 * std::tan(20.0 * std::numbers::pi / 180.0);
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x) {
+      const double r = 0.04 * std::hypot(x + 0.5 - 200.0, y + 0.5 - 200.0);
+      if (std::abs(r - radius) > 0.04) ASSERT_EQ(mask.at(x, y), r < radius ? 255 : 0) << x << "," << y;
+    }
+}
+
+TEST_F(RenderCommand, SeveralLightsGiveSeveralMasks) {
+  const auto box = writeBox();
+  const Ran ran =
+      umbrage({"render", box, "--ground", "-o", file("out.png"), "--mask", file("mask.png"), "--stats", file("s.json"),
+               "--light", "point:4,0,5,#ff8000", "--light", "directional:1,0,-1", "--size", "160x90"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(files(), ElementsAre("box.off", "mask-0.png", "mask-1.png", "out.png", "s.json"));
+  const auto stats = readJson(file("s.json"));
+  ASSERT_TRUE(stats.is_object());
+  EXPECT_THAT(stats["lights"], SizeIs(2));
+  EXPECT_EQ(stats["casters"]["triangles"], 12);
+  EXPECT_EQ(stats["casters"]["edges"], 18);
+  for (const auto& light : stats["lights"]) {
+    EXPECT_FALSE(light["technique"].get<std::string>().empty());
+    EXPECT_FALSE(light["reason"].get<std::string>().empty());
+  }
+  EXPECT_FALSE(stats["reason"].get<std::string>().empty());
+  EXPECT_GT(stats["total_ms"].get<double>(), 0.0);
+}
+
+TEST_F(RenderCommand, SameInputSameBytes) {
+  const auto box = writeBox();
+  for (const auto* name : {"a", "b"})
+    ASSERT_EQ(umbrage({"render", box, "--ground", "-o", file(std::string(name) + ".png"), "--mask",
+                       file(std::string(name) + "-mask.png"), "--size", "200x150"})
+                  .code,
+              0);
+  const auto bytes = [&](const std::string& name) {
+    std::ifstream in(file(name), std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  EXPECT_FALSE(bytes("a.png").empty());
+  EXPECT_TRUE(bytes("a.png") == bytes("b.png"));
+  EXPECT_TRUE(bytes("a-mask.png") == bytes("b-mask.png"));
+}
+
+// Where nothing is in shadow, shadows leave no trace: a lone square lit from the front.
+TEST_F(RenderCommand, OnlyNamedPartsCast) {
+  const auto scene = write("two.obj",
+                           "o wall\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\nf 1 2 3 4\no roof\nv -1 3 -1\nv 1 3 -1\nv 1 "
+                           "3 1\nv -1 3 1\nf 5 6 7 8\n");
+  const auto lit = [&](const Words& more) {
+    Words words{"render",  scene,          "--ground", "--light", "directional:0.3,-1,0.2",
+                "--stats", file("s.json"), "--size",   "200x150"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ran ran = umbrage(words);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return readJson(file("s.json"))["lights"][0]["lit_pixels"].get<int>();
+  };
+  const int both = lit({});
+  const int wall = lit({"--casters", "wall*"});
+  const int roof = lit({"--casters", "roof*"});
+  EXPECT_LT(both, wall);
+  EXPECT_LT(both, roof);
+  EXPECT_EQ(lit({"--casters", "wall*", "--casters", "roof*"}), both);
+}
+
+TEST_F(RenderCommand, CompareAgreesAndSaysSo) {
+  const auto box = writeBox();
+  const Ran ran = umbrage({"compare", box, "--ground", "--technique", "ray_traced", "--against", "ray_traced", "--size",
+                           "100x80", "-o", file("difference.png"), "--json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto json = Json::parse(ran.out);
+  EXPECT_EQ(json["agree"], true);
+  EXPECT_EQ(json["lights"][0]["differing"], 0);
+  EXPECT_TRUE(exists("difference.png"));
+}
+
+TEST_F(RenderCommand, EveryTechniqueOfThisMachineAgreesWithTheTruth) {
+  const auto box = writeBox();
+  const Ran listed = umbrage({"techniques", "--json"});
+  ASSERT_EQ(listed.code, 0) << listed.err;
+  for (const auto& technique : Json::parse(listed.out)) {
+    const auto name = technique["name"].get<std::string>();
+    const Ran ran =
+        umbrage({"compare", box, "--ground", "--technique", name, "--size", "320x200", "--light", "point:3,2,5"});
+    if (technique["available"])
+      EXPECT_EQ(ran.code, 0) << name << "\n" << ran.out << ran.err;
+    else
+      EXPECT_EQ(ran.code, 4) << name;
+  }
+}
+
+}  // namespace
+}  // namespace umbrage::cli_test
