@@ -122,12 +122,11 @@ Run addCompare(CLI::App& app) {
   const auto options = std::make_shared<CompareOptions>();
   addSceneOptions(app, options->scene);
   addValue(app, "--technique", "A", "The technique to judge (see umbrage techniques)", options->technique,
-           parseTechnique)
-      ->required();
+           parseTechnique, {.required = true});
   addValue(app, "--against", "B", "The technique to compare it with (default ray_traced)", options->against,
            parseTechnique);
   addWord(app, "-o,--output", "OUT.png", "A picture of the differences, in red", options->picture);
-  app.add_flag("--json", options->json, "As JSON");
+  addFlag(app, "--json", "As JSON", options->json);
   addCameraOptions(app, options->view);
   addLightOptions(app, options->view);
   addGroundOption(app, options->view);

@@ -199,7 +199,7 @@ Result<Outcome> run(const InfoOptions& options) {
 Run addInfo(CLI::App& app) {
   const auto options = std::make_shared<InfoOptions>();
   addSceneOptions(app, options->scene);
-  app.add_flag("--json", options->json, "As JSON");
+  addFlag(app, "--json", "As JSON", options->json);
   return [options](const Console&) { return run(*options); };
 }
 

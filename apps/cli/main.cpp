@@ -7,6 +7,9 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
 
 #include "arguments.hpp"
 #include "commands.hpp"

@@ -1,52 +1,15 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-
-#include "console.hpp"
+#include "declare.hpp"
 #include "parse.hpp"
 #include "umbrage/base/angle.hpp"
 #include "umbrage/scene/scene.hpp"
 
 namespace umbrage::cli {
-
-/// What a command does once its words are read.
-using Run = std::function<Result<Outcome>(const Console&)>;
-
-/// An option with one value that `parse` (word -> Result<T>) turns into a T; its message is shown after the option's
-/// name. Repeatable when `take` says so.
-template <class Parse, class Take>
-CLI::Option* addParsed(CLI::App& app, const std::string& name, const std::string& form, const std::string& help,
-                       Parse parse, Take take) {
-  CLI::Option* option = app.add_option(
-      name, [](const CLI::results_t&) { return true; }, help);
-  option->type_name(form)->expected(1)->allow_extra_args(false);
-  option->check(CLI::Validator(
-      [parse, take](std::string& word) -> std::string {
-        const auto value = parse(word);
-        if (!value) return value.error().message;
-        take(*value);
-        return {};
-      },
-      ""));
-  return option;
-}
-
-template <class T, class Parse>
-CLI::Option* addValue(CLI::App& app, const std::string& name, const std::string& form, const std::string& help,
-                      T& target, Parse parse) {
-  return addParsed(app, name, form, help, parse, [&target](const auto& value) { target = value; });
-}
-
-/// A plain word, for example a path; never empty.
-CLI::Option* addWord(CLI::App& app, const std::string& name, const std::string& form, const std::string& help,
-                     std::string& target);
 
 /// Which scene, and how its file is to be understood.
 struct SceneOptions {

@@ -113,6 +113,17 @@ Result<double> parseNumber(std::string_view text, double low, double high) {
   return value;
 }
 
+Result<std::string> parseWord(std::string_view text) {
+  if (text.empty()) return fail(ErrorCode::usage, "is empty");
+  return std::string(text);
+}
+
+Result<Angle> parseDegrees(std::string_view text, double low, double high) {
+  const auto value = parseNumber(text, low, high);
+  if (!value) return tl::unexpected(value.error());
+  return Angle::degrees(*value);
+}
+
 Result<Vec3> parsePoint(std::string_view text) {
   const auto words = split(text, ',');
   if (words.size() != 3) return refuse(text, "x,y,z: three numbers with commas and no spaces");

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "umbrage/base/angle.hpp"
 #include "umbrage/base/error.hpp"
 #include "umbrage/math/vec.hpp"
 #include "umbrage/scene/camera.hpp"
@@ -23,6 +24,12 @@ struct Size {
 [[nodiscard]] Result<double> parseNumber(std::string_view text);
 /// The same, from `low` to `high`, both included.
 [[nodiscard]] Result<double> parseNumber(std::string_view text, double low, double high);
+
+/// Any word but an empty one.
+[[nodiscard]] Result<std::string> parseWord(std::string_view text);
+
+/// Degrees from `low` to `high`, both included.
+[[nodiscard]] Result<Angle> parseDegrees(std::string_view text, double low, double high);
 
 /// "x,y,z", each within +-1e12 so that no later arithmetic overflows.
 [[nodiscard]] Result<Vec3> parsePoint(std::string_view text);

@@ -17,7 +17,4 @@ void addPlaceOptions(CLI::App& app, PlaceOptions& options);
 
 [[nodiscard]] Result<sun::Place> placeOf(const PlaceOptions& options);
 
-/// "48.2 N, 16.37 E"
-[[nodiscard]] std::string placeText(const PlaceOptions& options);
-
 }  // namespace umbrage::cli

@@ -39,7 +39,7 @@ Run addSample(CLI::App& app) {
   const auto options = std::make_shared<SampleOptions>();
   addWord(app, "NAME", "", "Which sample", options->name);
   addWord(app, "-o,--output", "FILE", "Where to write it: .glb, .iv, .city.json or .obj", options->output);
-  app.add_flag("--list", options->list, "The names of the samples");
+  addFlag(app, "--list", "The names of the samples", options->list);
   return [options](const Console&) { return run(*options); };
 }
 

@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "json.hpp"
 #include "place.hpp"
+#include "umbrage/study/ledger.hpp"
 #include "umbrage/sun/sun.hpp"
 
 namespace umbrage::cli {
@@ -16,6 +17,7 @@ struct SunOptions {
 
 /// The sun, and everything that was assumed to find it.
 struct Answer {
+  sun::Place place;
   sun::Instant instant;
   sun::ClockReading utc;
   sun::ClockReading clock;
@@ -42,7 +44,7 @@ std::string clockText(const SunOptions& options, const Answer& answer) {
 std::string answerText(const SunOptions& options, const Answer& answer) {
   const auto& [elevation, azimuth] = answer.position;
   const Vec3& d = answer.direction;
-  std::string text = fmt::format("place      {}\n", placeText(options.place));
+  std::string text = fmt::format("place      {}\n", study::placeText(answer.place));
   text += fmt::format("clock      {}, which is {} UTC\n", clockText(options, answer), utcText(answer));
   text += fmt::format("elevation  {:8.4f} degrees, geometric: the disc's centre, no refraction\n", elevation.degrees());
   text += fmt::format("azimuth    {:8.4f} degrees, clockwise from true north ({})\n", azimuth.degrees(),
@@ -76,8 +78,12 @@ Result<Outcome> run(const SunOptions& options, const Console& console) {
   if (!moment) return tl::unexpected(moment.error());
   if (moment->warning) console.warn(*moment->warning);
   const auto position = sun::sunPosition(*place, moment->instant);
-  const Answer answer{moment->instant, sun::clockAt(sun::Zone{}, *place, moment->instant),
-                      sun::clockAt(options.place.zone, *place, moment->instant), position, sun::eastNorthUp(position)};
+  const Answer answer{*place,
+                      moment->instant,
+                      sun::clockAt(sun::Zone{}, *place, moment->instant),
+                      sun::clockAt(options.place.zone, *place, moment->instant),
+                      position,
+                      sun::eastNorthUp(position)};
   return Outcome{options.json ? answerJson(options, answer) : answerText(options, answer), 0};
 }
 
@@ -86,10 +92,9 @@ Result<Outcome> run(const SunOptions& options, const Console& console) {
 Run addSun(CLI::App& app) {
   const auto options = std::make_shared<SunOptions>();
   addPlaceOptions(app, options->place);
-  addValue(app, "--at", "HH:MM[:SS]", "The time on that clock", options->time, sun::parseTime)
-      ->required()
-      ->group("Place and time");
-  app.add_flag("--json", options->json, "As JSON");
+  addValue(app, "--at", "HH:MM[:SS]", "The time on that clock", options->time, sun::parseTime,
+           {.group = "Place and time", .required = true});
+  addFlag(app, "--json", "As JSON", options->json);
   return [options](const Console& console) { return run(*options, console); };
 }
 

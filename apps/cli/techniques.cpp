@@ -61,7 +61,7 @@ std::string rowsText(const std::vector<Row>& rows) {
 
 Run addTechniques(CLI::App& app) {
   const auto json = std::make_shared<bool>(false);
-  app.add_flag("--json", *json, "As JSON");
+  addFlag(app, "--json", "As JSON", *json);
   return [json](const Console&) -> Result<Outcome> {
     const auto rows = gather();
     return Outcome{*json ? jsonText(rowsJson(rows)) : rowsText(rows), 0};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "options.hpp"
+#include "umbrage/study/sun_light.hpp"
 
 namespace umbrage::cli {
 namespace {
@@ -28,12 +29,9 @@ Result<void> checkMemory(const Size& size, std::size_t lights) {
 }
 
 scene::Light defaultSun(scene::UpAxis up, Angle north) {
-  const auto azimuth = Angle::degrees(kSunAzimuth);
-  const auto elevation = Angle::degrees(kSunElevation);
-  const Vec3 towards =
-      cos(elevation) * (cos(azimuth) * scene::northVector(up, north) + sin(azimuth) * scene::eastVector(up, north)) +
-      sin(elevation) * scene::upVector(up);
-  return {scene::DirectionalLight{-towards}, Vec3(1.0), 1.0, "default sun"};
+  auto light = study::sunLight({Angle::degrees(kSunElevation), Angle::degrees(kSunAzimuth)}, up, north);
+  light.name = "default sun";
+  return light;
 }
 
 Result<scene::Camera> makeCamera(const scene::Scene& scene, const ViewOptions& options) {
