@@ -37,7 +37,10 @@ scene::Light defaultSun(scene::UpAxis up, Angle north) {
 Result<scene::Camera> makeCamera(const scene::Scene& scene, const ViewOptions& options) {
   scene::Camera camera = scene::frameAll(scene::bounds(scene), scene.up, scene.northOffset, options.fov,
                                          options.size.width, options.size.height);
-  if (options.eye) camera.eye = *options.eye;
+  if (options.eye) {
+    camera.eye = *options.eye;
+    camera.target = scene::bounds(scene).centre();
+  }
   if (options.target) camera.target = *options.target;
   const double distance = glm::length(camera.target - camera.eye);
   if (!(distance > 0.0) || !std::isfinite(distance))

@@ -47,7 +47,7 @@ Wrong render(const std::string& name, const Words& more, const std::string& says
 INSTANTIATE_TEST_SUITE_P(
     CommandLines, Usage,
     testing::Values(
-        Wrong{"NoCommand", {}, "subcommand"}, Wrong{"UnknownCommand", {"rendre", "BOX"}, "rendre"},
+        Wrong{"NoCommand", {}, "a command is missing"}, Wrong{"UnknownCommand", {"rendre", "BOX"}, "rendre"},
         Wrong{"NoScene", {"info"}, "SCENE"}, Wrong{"TwoScenes", {"info", "BOX", "BOX"}, "box.off"},
         Wrong{"EmptyScene", {"info", ""}, "SCENE"}, Wrong{"UnknownOption", {"info", "BOX", "--jsn"}, "--jsn"},
         Wrong{"NothingToWrite", {"render", "BOX"}, "-o OUT.png"}, render("EyeOfTwo", {"--eye", "1,2"}, "--eye"),

@@ -39,7 +39,8 @@ struct PixelRays {
 };
 [[nodiscard]] PixelRays pixelRays(const Camera& camera);
 
-/// A camera that sees the whole of `bounds` from the (true) south-west at 30 degrees above the horizon.
+/// A camera that sees the whole of `bounds` from the (true) south-west at 30 degrees above the horizon, as large as fits into
+/// 94 % of the picture. Its target is near the centre of `bounds`.
 [[nodiscard]] Camera frameAll(const Box3& bounds, UpAxis up, Angle northOffset, Angle fovY, int width, int height);
 
 }  // namespace umbrage::scene

@@ -65,6 +65,32 @@ TEST(FrameAll, LooksFromTheSouthWestAtThirtyDegrees) {
   EXPECT_LT(from.x, 0);
 }
 
+// All corners are inside the picture, and in one direction two of them touch its 94 %.
+TEST(FrameAll, FillsThePicture) {
+  for (const Vec3 size : {Vec3(2, 2, 2), Vec3(100, 1, 5), Vec3(1, 3, 300), Vec3(60, 60, 0)})
+    for (const UpAxis up : {UpAxis::y, UpAxis::z})
+      for (const double degrees : {20.0, 45.0, 120.0}) {
+        Box3 box;
+        box.add(Vec3(7, -8, 9));
+        box.add(Vec3(7, -8, 9) + size);
+        const Camera c = frameAll(box, up, Angle::degrees(20), Angle::degrees(degrees), 640, 400);
+        const CameraBasis b = basis(c);
+        const double tangent = tan(0.5 * c.fovY);
+        Box3 seen;
+        for (int i = 0; i < 8; ++i) {
+          const Vec3 corner(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z);
+          const Vec3 v = corner - c.eye;
+          const double depth = glm::dot(v, b.forward);
+          EXPECT_GT(depth, 0.0);
+          seen.add(Vec3(glm::dot(v, b.right) / (depth * tangent * 1.6), glm::dot(v, b.up) / (depth * tangent), 0));
+        }
+        EXPECT_LE(std::max({seen.max.x, seen.max.y, -seen.min.x, -seen.min.y}), 0.94 + 1e-9);
+        if (degrees > 90.0) continue;
+        EXPECT_NEAR(std::max(seen.max.x, seen.max.y), 0.94, 1e-9);
+        EXPECT_NEAR(std::min(seen.min.x, seen.min.y), -0.94, 1e-9);
+      }
+}
+
 TEST(FindFault, SeesWhatIsBroken) {
   EXPECT_FALSE(findFault(oneTriangle()));
   Scene s = oneTriangle();
