@@ -8,10 +8,10 @@
 namespace umbrage::cli {
 namespace {
 
-// The sun where nobody names a light: high enough for short shadows, beside the default camera so that two walls
-// differ.
-constexpr double kSunAzimuth = 200.0;
-constexpr double kSunElevation = 45.0;
+// The sun where nobody names a light: from the right of the default camera, so that shadows fall to the left into the picture
+// and one of the two walls in sight is lit.
+constexpr double kSunAzimuth = 160.0;
+constexpr double kSunElevation = 40.0;
 
 // Surface and depth, masks and their pictures, with room for what a technique keeps beside them.
 constexpr double kBytesPerPixel = 24.0;
