@@ -19,7 +19,9 @@ class Hostile : public CliTest, public testing::WithParamInterface<const char*> 
     EXPECT_FALSE(ran.timedOut) << model;
     EXPECT_EQ(ran.signal, 0) << model;
     EXPECT_TRUE(ran.timedOut || (ran.code >= 0 && ran.code <= 4)) << model << " " << ran.code;
-    if (ran.code != 0) EXPECT_THAT(ran.err, testing::StartsWith("error: ")) << model;
+    if (ran.code != 0) {
+      EXPECT_THAT(ran.err, testing::StartsWith("error: ")) << model;
+    }
     for (const auto& name : files()) {
       EXPECT_EQ(name, "out.png") << model;
       EXPECT_TRUE(ran.code == 0 && png::read(file(name))) << model;
@@ -47,8 +49,8 @@ TEST_P(Hostile, FilesAreErrorsOrPictures) {
 INSTANTIATE_TEST_SUITE_P(Malformed, Hostile,
                          testing::Values("assimp", "city", "generated", "gltf", "gltf-validator", "inventor", "json",
                                          "mesh"),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& parameter) {
+                           std::string name = parameter.param;
                            std::erase(name, '-');
                            return name;
                          });

@@ -31,10 +31,8 @@ class Mask {
  public:
   explicit Mask(const std::string& path) {
     auto picture = png::read(path);
-    if (picture)
-      picture_ = *picture;
-    else
-      ADD_FAILURE() << picture.error().text();
+    EXPECT_TRUE(picture) << path;
+    if (picture) picture_ = *picture;
   }
   [[nodiscard]] int at(int x, int y) const { return picture_(x, y).r; }
   [[nodiscard]] int width() const { return picture_.width(); }
@@ -130,7 +128,9 @@ TEST_F(RenderCommand, ASpotLightsItsConeOnly) {
   for (int y = 0; y < mask.height(); ++y)
     for (int x = 0; x < mask.width(); ++x) {
       const double r = 0.04 * std::hypot(x + 0.5 - 200.0, y + 0.5 - 200.0);
-      if (std::abs(r - radius) > 0.04) ASSERT_EQ(mask.at(x, y), r < radius ? 255 : 0) << x << "," << y;
+      if (std::abs(r - radius) > 0.04) {
+        ASSERT_EQ(mask.at(x, y), r < radius ? 255 : 0) << x << "," << y;
+      }
     }
 }
 
@@ -210,10 +210,8 @@ TEST_F(RenderCommand, EveryTechniqueOfThisMachineAgreesWithTheTruth) {
     const auto name = technique["name"].get<std::string>();
     const Ran ran =
         umbrage({"compare", box, "--ground", "--technique", name, "--size", "320x200", "--light", "point:3,2,5"});
-    if (technique["available"])
-      EXPECT_EQ(ran.code, 0) << name << "\n" << ran.out << ran.err;
-    else
-      EXPECT_EQ(ran.code, 4) << name;
+    const bool available = technique["available"];
+    EXPECT_EQ(ran.code, available ? 0 : 4) << name << "\n" << ran.out << ran.err;
   }
 }
 

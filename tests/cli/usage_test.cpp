@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"SunZone",
               {"sun", "--lat", "0", "--lon", "0", "--date", "2026-02-20", "--at", "12:00", "--tz", "Mars/Base"},
               "--tz"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& parameter) { return parameter.param.name; });
 
 TEST_F(CliTest, HelpAndVersionAreNoErrors) {
   const Ran help = umbrage({"--help"});
