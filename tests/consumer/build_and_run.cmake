@@ -1,6 +1,6 @@
 # Builds the project in SOURCE with the cache of SETTINGS, runs its program and, where LINKS is given, looks at what it links.
 function(run)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${BINARY} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT code EQUAL 0)
     list(JOIN ARGN " " command)
     message(FATAL_ERROR "${command}\nended with ${code}:\n${output}")
@@ -9,9 +9,14 @@ function(run)
 endfunction()
 
 file(REMOVE_RECURSE ${BINARY})
+file(MAKE_DIRECTORY ${BINARY})
 run(${CMAKE_COMMAND} -G Ninja -C ${SETTINGS} -S ${SOURCE} -B ${BINARY})
 run(${CMAKE_COMMAND} --build ${BINARY})
-run(${BINARY}/consumer)
+# Beside the installed programs, where what the installation brings along must be found.
+get_filename_component(folder ${PROGRAM} DIRECTORY)
+file(MAKE_DIRECTORY ${folder})
+file(COPY_FILE ${BINARY}/consumer ${PROGRAM})
+run(${PROGRAM})
 
 if(LINKS)
   run(ldd ${BINARY}/consumer)

@@ -39,7 +39,8 @@ inline constexpr std::size_t kMaxInstances = 1'000'000;
 /// 4. Colours are taken as sRGB and made linear, except those of glTF, which are linear.
 /// 5. Names and warnings are UTF-8 without control characters; what is not UTF-8 in a file is taken as Latin-1.
 /// 6. May be called from several threads at once.
-/// The reader is looked for at $UMBRAGE_READER, then beside the running program, then where this library was installed or built.
+/// The reader is looked for at $UMBRAGE_READER, then beside the running program and in the libexec folder of its installation,
+/// then where this library was installed or built.
 /// Errors: input (missing, broken, hostile, too large, too slow), unsupported (unknown format or feature), usage (options).
 /// CAVEAT: .obj .ply .stl .off .3ds .ifc .x3d .iv .wrl are read in single precision by the libraries behind them.
 [[nodiscard]] Result<scene::Scene> loadScene(const std::filesystem::path& path, const LoadOptions& options = {});

@@ -47,9 +47,10 @@ std::string systemReason(int code) { return std::generic_category().message(code
 std::optional<fs::path> findReader() {
   if (const char* named = std::getenv("UMBRAGE_READER"); named != nullptr && *named != '\0') return fs::path(named);
   std::error_code ignored;
-  const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path() / "umbrage-reader";
-  for (const fs::path& candidate : {beside, fs::path(UMBRAGE_READER_INSTALLED), fs::path(UMBRAGE_READER_BUILT)})
-    if (::access(candidate.c_str(), X_OK) == 0) return candidate;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  for (const fs::path& candidate : {program / "umbrage-reader", program / UMBRAGE_READER_FROM_PROGRAM / "umbrage-reader",
+                                    fs::path(UMBRAGE_READER_INSTALLED), fs::path(UMBRAGE_READER_BUILT)})
+    if (candidate.is_absolute() && ::access(candidate.c_str(), X_OK) == 0) return candidate;
   return std::nullopt;
 }
 
