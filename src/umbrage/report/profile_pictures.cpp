@@ -18,31 +18,31 @@ using detail::Canvas;
 using detail::Layer;
 using detail::Panel;
 
-constexpr std::size_t kMostRows = 14;
+constexpr std::size_t kMostRows = 16;
 
 // ---- colours of steps
+
+// The numbers of the steps with the sun up.
+std::vector<std::size_t> sunnySteps(const study::Profile& profile) {
+  std::vector<std::size_t> up;
+  for (std::size_t i = 0; i < profile.steps.size(); ++i)
+    if (profile.steps[i].moment.sunIsUp()) up.push_back(i);
+  return up;
+}
 
 // 0 for the first step with the sun up, 1 for the last.
 std::vector<double> timesOfDay(const study::Profile& profile) {
   std::vector<double> times(profile.steps.size(), 0.5);
-  std::vector<std::size_t> up;
-  for (std::size_t i = 0; i < profile.steps.size(); ++i)
-    if (profile.steps[i].moment.sunIsUp()) up.push_back(i);
+  const auto up = sunnySteps(profile);
   for (std::size_t k = 0; k < up.size(); ++k) times[up[k]] = up.size() > 1 ? double(k) / double(up.size() - 1) : 0.5;
   return times;
 }
 
+// Those of steps without sun are never drawn.
 std::vector<image::Rgb8> stepColours(const study::Profile& profile) {
-  const auto times = timesOfDay(profile);
   std::vector<image::Rgb8> colours;
-  for (std::size_t i = 0; i < times.size(); ++i)
-    colours.push_back(profile.steps[i].moment.sunIsUp() ? timeColour(times[i]) : image::Rgb8{120, 126, 138});
+  for (const double time : timesOfDay(profile)) colours.push_back(timeColour(time));
   return colours;
-}
-
-std::size_t sunnySteps(const study::Profile& profile) {
-  return static_cast<std::size_t>(std::count_if(profile.steps.begin(), profile.steps.end(),
-                                                [](const auto& step) { return step.moment.sunIsUp(); }));
 }
 
 // ---- the shadows of all steps
@@ -64,7 +64,7 @@ Layer shadowLayer(const scene::Scene& scene, const study::Profile& profile, doub
   const image::GreyImage edges = detail::formEdges(profile);
   detail::drawForm(layer, edges);
   const auto times = timesOfDay(profile);
-  const Stroke stroke = strokeFor(sunnySteps(profile) * std::max<std::size_t>(1, profile.parts.size()), scale);
+  const Stroke stroke = strokeFor(sunnySteps(profile).size() * std::max<std::size_t>(1, profile.parts.size()), scale);
   detail::Lines lines(edges, stroke.width, stroke.alpha);
   const auto draw = [&](const study::ProfileStep& step, const image::GreyImage& light, image::Rgb8 colour) {
     const auto shadow = detail::castShadow(profile, step, light, scene);
@@ -85,7 +85,6 @@ Layer shadowLayer(const scene::Scene& scene, const study::Profile& profile, doub
 // ---- legends
 
 std::string sunText(const study::PeriodStep& moment) {
-  if (!moment.sunIsUp()) return "sun below the horizon";
   return fmt::format("{:.1f}\u00b0 high, {:.1f}\u00b0 {}", moment.sun.elevation.degrees(), moment.sun.azimuth.degrees(),
                      sun::compassPoint(moment.sun.azimuth));
 }
@@ -115,26 +114,37 @@ std::size_t rowStride(std::size_t steps) {
   return steps;
 }
 
+// Where to begin with every stride-th step: at a full hour, if one of the first is.
+std::size_t rowOffset(const study::Profile& profile, const std::vector<std::size_t>& sunny, std::size_t stride) {
+  for (std::size_t k = 0; k < std::min(stride, sunny.size()); ++k)
+    if (profile.steps[sunny[k]].moment.label.substr(2, 3) == ":00") return k;
+  return 0;
+}
+
 void writeTimes(Panel& panel, const study::Profile& profile) {
   const auto colours = stepColours(profile);
   const auto times = timesOfDay(profile);
-  const std::size_t stride = rowStride(profile.steps.size());
+  const auto sunny = sunnySteps(profile);
+  if (sunny.empty()) return panel.paragraph("The sun is below the horizon at all times of the period.");
+  const std::size_t stride = rowStride(sunny.size());
+  const std::size_t offset = stride > 1 ? rowOffset(profile, sunny, stride) : 0;
   panel.heading(stride == 1 ? "Shadows at, with the sun"
-                            : fmt::format("Shadows at {} times, with the sun", profile.steps.size()));
+                            : fmt::format("Shadows at {} times, with the sun", sunny.size()));
   if (stride > 1) {
     std::vector<Panel::Tick> ticks;
-    for (std::size_t i = 0; i < profile.steps.size(); i += stride)
-      ticks.push_back({(double(i) + 0.5) / double(profile.steps.size()), profile.steps[i].moment.label});
+    for (std::size_t k = offset; k < sunny.size(); k += stride)
+      ticks.push_back({(double(k) + 0.5) / double(sunny.size()), profile.steps[sunny[k]].moment.label});
     panel.bar(
-        profile.steps.size(), [&](std::size_t i) { return colours[i]; }, ticks);
+        sunny.size(), [&](std::size_t k) { return colours[sunny[k]]; }, ticks);
   } else {
     panel.gap(4);
   }
-  for (std::size_t i = 0; i < profile.steps.size(); i += stride) {
+  for (std::size_t k = offset; k < sunny.size(); k += stride) {
+    const study::ProfileStep& step = profile.steps[sunny[k]];
     std::vector<image::Rgb8> swatches;
-    for (std::size_t p = 0; p < profile.steps[i].parts.size(); ++p) swatches.push_back(partColour(p, times[i]));
-    if (swatches.empty()) swatches.push_back(colours[i]);
-    panel.row(swatches, profile.steps[i].moment.label, sunText(profile.steps[i].moment));
+    for (std::size_t p = 0; p < step.parts.size(); ++p) swatches.push_back(partColour(p, times[sunny[k]]));
+    if (swatches.empty()) swatches.push_back(colours[sunny[k]]);
+    panel.row(swatches, step.moment.label, sunText(step.moment));
   }
 }
 
@@ -163,10 +173,10 @@ double viewScale(const study::Profile& profile) { return std::clamp(profile.came
 
 // ---- hours
 
-// A whole number of these makes the scale of the heat map and its lines: at most eight lines.
+// The distance of lines and ticks: at most eight of them.
 double hourLine(double hours) {
-  for (const double step : {0.25, 0.5, 1.0, 2.0, 3.0})
-    if (hours / step <= 8.0 + 1e-9) return step;
+  for (const double step : {1.0 / 60.0, 1.0 / 12.0, 0.25, 0.5, 1.0, 2.0, 3.0})
+    if (hours / step <= 8.0 + 1e-3) return step;
   return 4.0;
 }
 
@@ -178,20 +188,18 @@ double smallestShare(const study::Profile& profile) {
   return hours;
 }
 
+// REQUIRES: hours > 0.
 Layer hoursLayer(const scene::Scene& scene, const study::Profile& profile, double hours, double scale) {
-  const Layer model = detail::paleModel(scene, profile);
-  const auto relief = detail::relief(model);
-  const image::GreyImage edges = detail::formEdges(profile);
-  Layer layer = model;
-  image::Image<float> inShadow(model.width(), model.height());
+  Layer layer = detail::paleModel(scene, profile);
+  const auto relief = detail::relief(layer);
+  image::Image<float> inShadow(layer.width(), layer.height());
   for (std::size_t i = 0; i < layer.size(); ++i) {
     if (profile.surface.triangle.pixels()[i] == shadow::kNoTriangle) continue;
-    inShadow.pixels()[i] = static_cast<float>(profile.shadowMinutes.pixels()[i] / 60.0);
-    const double t = hours > 0.0 ? inShadow.pixels()[i] / hours : 0.0;
-    layer.pixels()[i] = relief.pixels()[i] * detail::toVec(heatColour(t));
+    inShadow.pixels()[i] = profile.shadowMinutes.pixels()[i] / 60.0f;
+    layer.pixels()[i] = relief.pixels()[i] * detail::toVec(heatColour(inShadow.pixels()[i] / hours));
   }
+  const image::GreyImage edges = detail::formEdges(profile);
   detail::drawForm(layer, edges);
-  if (hours <= 0.0) return layer;
   const auto field = detail::smoothed(inShadow);
   detail::Lines lines(edges, static_cast<float>(scale), 0.5f);
   const double margin = 0.5 * smallestShare(profile);
@@ -202,13 +210,24 @@ Layer hoursLayer(const scene::Scene& scene, const study::Profile& profile, doubl
   return layer;
 }
 
-void writeHourScale(Panel& panel, double hours) {
+std::string durationText(double hours, double unit) {
+  return unit < 1.0 ? fmt::format("{:.0f} min", hours * 60.0) : fmt::format("{:g} h", hours);
+}
+
+void writeHours(Panel& panel, double hours) {
+  if (hours <= 0.0) return panel.paragraph("The sun is below the horizon at all times of the period.");
   constexpr std::size_t kCells = 97;
+  const double line = hourLine(hours);
   std::vector<Panel::Tick> ticks;
-  for (double level = 0.0; level <= hours + 1e-6; level += hourLine(hours))
-    ticks.push_back({level / hours, fmt::format("{:g} h", level)});
+  for (double level = 0.0; level <= hours + 1e-6; level += line)
+    ticks.push_back({level / hours, durationText(level, line)});
+  panel.heading("Time without direct sun");
   panel.bar(
       kCells, [](std::size_t i) { return heatColour(double(i) / double(kCells - 1)); }, ticks);
+  panel.paragraph(
+      fmt::format("The sun is up for {:.2f} h of the period. Lines enclose at least {}, {} and so on. The shading "
+                  "shows form alone.",
+                  hours, durationText(line, line), durationText(2.0 * line, line)));
 }
 
 }  // namespace
@@ -228,22 +247,15 @@ image::RgbImage shadowPicture(const scene::Scene& scene, const study::Profile& p
 
 image::RgbImage hoursPicture(const scene::Scene& scene, const study::Profile& profile) {
   const double hours = profile.sunUpMinutes / 60.0;
-  const auto view = detail::toRgb(hoursLayer(scene, profile, hours, viewScale(profile)));
+  const double scale = viewScale(profile);
   return detail::besidePanel(
-      view,
+      detail::toRgb(hours > 0.0 ? hoursLayer(scene, profile, hours, scale) : shadowLayer(scene, profile, scale)),
       [&](Panel& panel) {
-        panel.title("Hours in shadow", subtitleOf(scene, profile));
-        panel.heading("Time without direct sun");
-        if (hours > 0.0) writeHourScale(panel, hours);
-        panel.paragraph(fmt::format(
-            "The sun is up for {:.2f} h of the period.{}", hours,
-            hours > 0.0
-                ? fmt::format(" Lines enclose at least {0:g} h, {1:g} h and so on. The shading shows form alone.",
-                              hourLine(hours), 2.0 * hourLine(hours))
-                : ""));
+        panel.title("Time in shadow", subtitleOf(scene, profile));
+        writeHours(panel, hours);
         writeLedger(panel, profile);
       },
-      [&](Canvas& canvas, double scale) { domeAtCorner(canvas, scene, profile, scale); });
+      [&](Canvas& canvas, double canvasScale) { domeAtCorner(canvas, scene, profile, canvasScale); });
 }
 
 }  // namespace umbrage::report

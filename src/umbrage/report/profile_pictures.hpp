@@ -12,7 +12,7 @@ namespace umbrage::report {
 /// REQUIRES: `scene` is the one the profile was made of.
 [[nodiscard]] image::RgbImage shadowPicture(const scene::Scene& scene, const study::Profile& profile);
 
-/// The hours in shadow as a heat map over the scene, with lines at whole hours (or halves and so on), a scale, the way of the sun
+/// The hours in shadow as a heat map over the scene, with lines at round times, a scale, the way of the sun
 /// and the conventions; laid out as shadowPicture.
 [[nodiscard]] image::RgbImage hoursPicture(const scene::Scene& scene, const study::Profile& profile);
 
