@@ -24,6 +24,7 @@ namespace umbrage::io {
 ///    is one Solid for each piece, any other a MultiSurface.
 /// 6. loadScene gives the names of parts back as they were, but: .obj has '_' for '/' and blanks; CityJSON numbers levels whose
 ///    name is taken ("Body (2)"). In .iv the names that other readers see have only letters, digits and '_'; materials too.
+///    Of more than 64 levels the last are one, and a name has at most 400 bytes.
 /// Errors: usage (unknown extension), input (a scene with a fault), output (cannot be written, or more than 4 GiB of .glb).
 /// CAVEAT: lights are not written. `casts` is kept only as a remark in .glb and CityJSON, northOffset only in .glb.
 [[nodiscard]] Result<void> writeScene(const scene::Scene& scene, const std::filesystem::path& path);

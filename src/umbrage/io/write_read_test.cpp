@@ -175,6 +175,9 @@ TEST(WriteRead, TakesNamesOfAllKinds) {
   for (const std::string& name : names) given.instances.push_back({name, 0, Mat4(1.0), true});
   for (const std::string extension : {"glb", "iv", "city.json", "obj"})
     EXPECT_EQ(scene::triangleCount(returned(given, extension)), scene::triangleCount(given)) << extension;
+  std::string deep;
+  for (int level = 0; level < 100000; ++level) deep += "d/";
+  given.instances[5].name = deep;
   given.instances[4].name = "bytes that are no text: \xff\xfe";
   for (const std::string extension : {"glb", "iv", "city.json", "obj"})
     EXPECT_EQ(scene::triangleCount(returned(given, extension)), scene::triangleCount(given)) << extension;

@@ -14,6 +14,10 @@ void appendShortest(std::string& text, Number number) {
   text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
 }
 
+// Below this many levels the rest of a path is one name, and longer names are cut: no stack grows without bounds, here or in the
+// parsers that will read the file.
+constexpr std::size_t kMaxLevels = 64, kMaxName = 400;
+
 bool isSingle(const Vec3& p) { return Vec3(Vec3f(p)) == p; }
 
 }  // namespace
@@ -21,8 +25,9 @@ bool isSingle(const Vec3& p) { return Vec3(Vec3f(p)) == p; }
 std::vector<std::string> levels(const std::string& path) {
   std::vector<std::string> names;
   for (std::size_t begin = 0; begin <= path.size();) {
-    const std::size_t end = std::min(path.find('/', begin), path.size());
-    if (end > begin) names.push_back(path.substr(begin, end - begin));
+    const bool last = names.size() + 1 == kMaxLevels;
+    const std::size_t end = last ? path.size() : std::min(path.find('/', begin), path.size());
+    if (end > begin) names.push_back(path.substr(begin, std::min(end - begin, kMaxName)));
     begin = end + 1;
   }
   if (names.empty()) names.emplace_back("part");

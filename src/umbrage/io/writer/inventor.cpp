@@ -40,15 +40,16 @@ void appendVector(std::string& text, const V& v) {
   append(text, v.z);
 }
 
-/// The instances below one level of the hierarchy.
+/// One level of the hierarchy: the instances that stand in it, and the levels below.
 struct Level {
+  std::string name;
   std::vector<std::pair<std::string, const scene::Instance*>> parts;
-  std::vector<std::pair<std::string, Level>> groups;
+  std::vector<Level> levels;
 
-  Level& group(const std::string& name) {
-    for (auto& [known, level] : groups)
-      if (known == name) return level;
-    return groups.emplace_back(name, Level{}).second;
+  Level& below(const std::string& wanted) {
+    for (Level& level : levels)
+      if (level.name == wanted) return level;
+    return levels.emplace_back(Level{wanted, {}, {}});
   }
 };
 
@@ -126,9 +127,9 @@ void InventorWriter::addMaterials(const std::vector<std::uint32_t>& materials) {
 
 void InventorWriter::addLevel(const Level& level) {
   for (const auto& [name, instance] : level.parts) addPart(name, *instance);
-  for (const auto& [name, group] : level.groups) {
-    openLevel(name);
-    addLevel(group);
+  for (const Level& lower : level.levels) {
+    openLevel(lower.name);
+    addLevel(lower);
     close();
   }
 }
@@ -196,7 +197,7 @@ std::string InventorWriter::write() {
   for (const scene::Instance& instance : scene_.instances) {
     const auto path = levels(instance.name);
     Level* level = &root;
-    for (std::size_t i = 0; i + 1 < path.size(); ++i) level = &level->group(path[i]);
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) level = &level->below(path[i]);
     level->parts.emplace_back(path.back(), &instance);
   }
   open("Separator {");
