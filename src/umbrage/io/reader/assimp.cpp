@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "umbrage/base/file.hpp"
 #include "umbrage/io/reader/files.hpp"
 #include "umbrage/io/reader/read.hpp"
 #include "umbrage/io/reader/tidy.hpp"
@@ -146,9 +147,20 @@ void addNodes(const aiScene& given, const Mat4& root, const std::string& fileNam
   }
 }
 
+// assimp looks for the end of a PLY header for ever.
+Result<void> checkPlyHeader(const std::filesystem::path& file) {
+  const auto bytes = readFile(file, kMaxFileBytes);
+  if (!bytes) return fail(bytes.error().code, bytes.error().message);
+  if (asText(*bytes).find("\nend_header") != std::string_view::npos) return {};
+  if (asText(*bytes).find("\rend_header") != std::string_view::npos) return {};
+  return fail(ErrorCode::input, "is not a PLY file: its header has no end");
+}
+
 }  // namespace
 
 Result<scene::Scene> readWithAssimp(const Request& request, detail::Format format) {
+  if (format == detail::Format::ply)
+    if (auto fine = checkPlyHeader(request.file); !fine) return tl::unexpected(fine.error());
   Complaints complaints;
   Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
   Assimp::DefaultLogger::get()->attachStream(new Listener(complaints, request.file),
