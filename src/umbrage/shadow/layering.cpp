@@ -9,7 +9,8 @@
 namespace umbrage::shadow {
 namespace {
 
-constexpr std::array<int, 2> kResolutions{64, 512};
+// The coarse grid settles most scenes; the fine one looks again only where the coarse one counts too much.
+constexpr int kCoarse = 64, kFine = 512;
 constexpr std::uint32_t kNobody = ~std::uint32_t{0};
 
 // A convex polygon in the plane of a grid, whose cells are the unit squares; at most a triangle cut by five half-spaces.
@@ -40,7 +41,19 @@ class Grid {
     return visit(polygon, [&](std::size_t i) { return count_[i] < limit || (solid != kNobody && last_[i] == solid); });
   }
 
+  /// Whether the polygon touches a cell that counts more than `limit`.
+  [[nodiscard]] bool exceeds(const Polygon& polygon, int limit) const {
+    return !visit(polygon, [&](std::size_t i) { return count_[i] <= limit; });
+  }
+
   [[nodiscard]] int largest() const { return *std::max_element(count_.begin(), count_.end()); }
+  /// The largest count that does not exceed `limit`.
+  [[nodiscard]] int largestWithin(int limit) const {
+    int largest = 0;
+    for (const int count : count_)
+      if (count <= limit) largest = std::max(largest, count);
+    return largest;
+  }
 
  private:
   // Rounding of projected coordinates, in cells: generous, since a cell too many only makes the bound larger.
@@ -220,63 +233,93 @@ class CubeView {
   int resolution_;
 };
 
-// Calls fn(view) with the way the light sees.
-template <class Fn>
-auto withView(const CasterSet& casters, const Silhouette& silhouette, int resolution, const Fn& fn) {
-  if (silhouette.light.w == 0.0) return fn(ParallelView(casters, silhouette, resolution));
-  return fn(CubeView(casters, silhouette, resolution));
+using Grids = std::vector<Grid>;
+
+template <class View>
+Grids countAll(const CasterSet& casters, const Silhouette& silhouette, const View& view) {
+  Grids grids(View::kFaces, Grid(kCoarse));
+  forEachCounted(casters, silhouette, [&](std::uint32_t, const std::array<Vec3, 3>& corners, std::uint32_t solid) {
+    view.pieces(corners, [&](int face, const Polygon& polygon) { grids[face].add(polygon, solid); });
+  });
+  return grids;
 }
 
-int boundAt(const CasterSet& casters, const Silhouette& silhouette, int resolution) {
-  return withView(casters, silhouette, resolution, [&](const auto& view) {
-    std::vector<Grid> grids(view.kFaces, Grid(resolution));
-    forEachCounted(casters, silhouette, [&](std::uint32_t, const std::array<Vec3, 3>& corners, std::uint32_t solid) {
-      view.pieces(corners, [&](int face, const Polygon& polygon) { grids[face].add(polygon, solid); });
-    });
-    int largest = 0;
-    for (const Grid& grid : grids) largest = std::max(largest, grid.largest());
-    return largest;
+int largest(const Grids& grids) {
+  int value = 0;
+  for (const Grid& grid : grids) value = std::max(value, grid.largest());
+  return value;
+}
+
+// Calls fn(triangle, corners, solid) for the counted triangles that touch a coarse cell of more than `limit`.
+template <class View, class Fn>
+void forEachCrowded(const CasterSet& casters, const Silhouette& silhouette, const View& view, const Grids& coarse, int limit,
+                    const Fn& fn) {
+  forEachCounted(casters, silhouette, [&](std::uint32_t t, const std::array<Vec3, 3>& corners, std::uint32_t solid) {
+    bool crowded = false;
+    view.pieces(corners, [&](int face, const Polygon& p) { crowded = crowded || coarse[face].exceeds(p, limit); });
+    if (crowded) fn(t, corners, solid);
   });
+}
+
+template <class View>
+int boundWith(const CasterSet& casters, const Silhouette& silhouette, int enough) {
+  const View view(casters, silhouette, kCoarse);
+  const Grids coarse = countAll(casters, silhouette, view);
+  if (largest(coarse) <= enough) return largest(coarse);
+  const View closer(casters, silhouette, kFine);
+  Grids fine(View::kFaces, Grid(kFine));
+  forEachCrowded(casters, silhouette, view, coarse, enough,
+                 [&](std::uint32_t, const std::array<Vec3, 3>& corners, std::uint32_t solid) {
+                   closer.pieces(corners, [&](int face, const Polygon& polygon) { fine[face].add(polygon, solid); });
+                 });
+  int bound = largest(fine);
+  for (const Grid& grid : coarse) bound = std::max(bound, grid.largestWithin(enough));
+  return bound;
 }
 
 constexpr std::size_t kMostGroups = 256;
 
+// Triangles that touch no crowded cell stay in the first group: where they are, all together are within the limit.
 template <class View>
-LayerGroups firstFit(const CasterSet& casters, const Silhouette& silhouette, const View& view, int limit) {
-  std::vector<std::vector<Grid>> groups;
+LayerGroups groupWith(const CasterSet& casters, const Silhouette& silhouette, int limit) {
+  const View view(casters, silhouette, kCoarse);
+  const Grids coarse = countAll(casters, silhouette, view);
+  if (largest(coarse) <= limit) return {};
+  const View closer(casters, silhouette, kFine);
+  std::vector<Grids> groups;
   LayerGroups result;
   result.ofTriangle.assign(casters.triangles.size(), 0);
-  forEachCounted(casters, silhouette, [&](std::uint32_t t, const std::array<Vec3, 3>& corners, std::uint32_t solid) {
-    const auto fits = [&](const std::vector<Grid>& group) {
+  const auto place = [&](std::uint32_t t, const std::array<Vec3, 3>& corners, std::uint32_t solid) {
+    const auto fits = [&](const Grids& group) {
       bool all = true;
-      view.pieces(corners, [&](int face, const Polygon& p) { all = all && group[face].fits(p, solid, limit); });
+      closer.pieces(corners, [&](int face, const Polygon& p) { all = all && group[face].fits(p, solid, limit); });
       return all;
     };
     std::size_t g = 0;
     while (g < groups.size() && g + 1 < kMostGroups && !fits(groups[g])) ++g;
-    if (g == groups.size()) groups.emplace_back(view.kFaces, Grid(kResolutions.back()));
-    view.pieces(corners, [&](int face, const Polygon& polygon) { groups[g][face].add(polygon, solid); });
+    if (g == groups.size()) groups.emplace_back(View::kFaces, Grid(kFine));
+    closer.pieces(corners, [&](int face, const Polygon& polygon) { groups[g][face].add(polygon, solid); });
     result.ofTriangle[t] = static_cast<std::uint8_t>(g);
-  });
-  result.count = std::max(1, static_cast<int>(groups.size()));
+  };
+  forEachCrowded(casters, silhouette, view, coarse, limit, place);
+  if (groups.size() <= 1) return {};
+  result.count = static_cast<int>(groups.size());
   return result;
 }
 
 }  // namespace
 
 int layeringBound(const CasterSet& casters, const Silhouette& silhouette, int enough) {
-  auto bound = static_cast<int>(std::count_if(silhouette.side.begin(), silhouette.side.end(), [](int s) { return s != 0; }));
-  for (const int resolution : kResolutions) {
-    if (bound <= enough) break;
-    bound = std::min(bound, boundAt(casters, silhouette, resolution));
-  }
-  return bound;
+  const auto counted =
+      static_cast<int>(std::count_if(silhouette.side.begin(), silhouette.side.end(), [](int s) { return s != 0; }));
+  if (counted <= enough) return counted;
+  return std::min(counted, silhouette.light.w == 0.0 ? boundWith<ParallelView>(casters, silhouette, enough)
+                                                     : boundWith<CubeView>(casters, silhouette, enough));
 }
 
 LayerGroups groupLayers(const CasterSet& casters, const Silhouette& silhouette, int limit) {
-  if (layeringBound(casters, silhouette, limit) <= limit) return {};
-  return withView(casters, silhouette, kResolutions.back(),
-                  [&](const auto& view) { return firstFit(casters, silhouette, view, limit); });
+  return silhouette.light.w == 0.0 ? groupWith<ParallelView>(casters, silhouette, limit)
+                                   : groupWith<CubeView>(casters, silhouette, limit);
 }
 
 Silhouette restrictTo(const CasterSet& casters, const Silhouette& silhouette, const LayerGroups& groups, int group) {
