@@ -259,6 +259,35 @@ TEST_P(StencilTechniques, SeeWhatTheCameraSees) {
   EXPECT_LT(different, 20u);  // pixels on edges between triangles
 }
 
+// The camera has no near plane: of two sheets a hair's breadth before it, it sees the nearer one, and its shadow.
+TEST_P(StencilTechniques, SeeWhatIsRightBeforeTheEye) {
+  scene::Scene s = village();
+  auto upright = std::make_shared<mesh::Mesh>();
+  for (const double x : {4e-5, 2e-5, 1e-5}) {  // the nearest is drawn last
+    const auto first = static_cast<std::uint32_t>(upright->positions.size());
+    for (const Vec2 yz : {Vec2(-1, 9), Vec2(1, 9), Vec2(1, 11), Vec2(-1, 11)})
+      upright->positions.emplace_back(20 + x, yz.x, yz.y);
+    upright->triangles.push_back({first, first + 1, first + 2});
+    upright->triangles.push_back({first, first + 2, first + 3});
+  }
+  s.meshes.push_back(upright);
+  s.instances.push_back({"sheets", static_cast<std::uint32_t>(s.meshes.size() - 1)});
+  const auto geometry = shadow::makeGeometry(s);
+  ASSERT_TRUE(technique_->prepare(geometry));
+  const scene::Camera camera = cameraFrom({20 - 1e-4, 0, 10}, {21, 0, 10});
+  const Truth truth{geometry->surfaces};
+  for (const Light3& light : lights()) {
+    const auto shading = technique_->shade({camera, std::span(&light.light, 1)});
+    ASSERT_TRUE(shading);
+    const Vec3 ray = scene::pixelRays(camera).through(kWidth / 2 + 0.5, kHeight / 2 + 0.5);
+    const double none = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(shading->surface.triangle(kWidth / 2, kHeight / 2), truth.hit(camera.eye, ray, 0.0, none, false));
+    const auto expected = truth.mask(camera, light.light);
+    EXPECT_EQ(shadow::compare(shading->masks[0], expected, truth.edges(camera, expected), 1).farFromEdge, 0u)
+        << light.name;
+  }
+}
+
 TEST_P(StencilTechniques, DrawThePictureThatTheProcessorComposes) {
   const scene::Scene s = village();
   const auto geometry = shadow::makeGeometry(s);
