@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <thread>
 
 #include "umbrage/io/reader/limits.hpp"
 #include "umbrage/io/test_data.hpp"
@@ -49,6 +50,14 @@ TEST(Confinement, noProgramsAndNoConnections) {
     char name[] = "/bin/true";
     char* const arguments[] = {name, nullptr};
     return ::execv(name, arguments) != 0 && ::socket(AF_INET, SOCK_STREAM, 0) < 0 && ::kill(::getppid(), 0) != 0;
+  });
+}
+
+TEST(Confinement, threadsButNoProcesses) {
+  expectConfined([] {
+    bool ran = false;
+    std::thread([&ran] { ran = true; }).join();
+    return ran && ::fork() < 0;
   });
 }
 

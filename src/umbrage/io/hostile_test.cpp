@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -168,6 +169,23 @@ TEST(HostileReader, isWorkedWithFromManyThreads) {
   EXPECT_EQ(counts, std::vector<std::size_t>(8, 1));
   EXPECT_EQ(openDescriptors(), descriptors);
   EXPECT_FALSE(hasChildren());
+}
+
+TEST(HostileReader, servesAHostWithoutStandardStreams) {
+  const test::Folder folder;
+  const auto file = folder.write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto descriptors = openDescriptors();
+  const std::array<int, 2> kept = {::dup(0), ::dup(1)};
+  ::close(0);
+  ::close(1);
+  const auto scene = loadScene(file);
+  for (int fd = 0; fd < 2; ++fd) {
+    ::dup2(kept[fd], fd);
+    ::close(kept[fd]);
+  }
+  ASSERT_TRUE(scene) << scene.error().text();
+  EXPECT_EQ(scene::triangleCount(*scene), 1U);
+  EXPECT_EQ(openDescriptors(), descriptors);
 }
 
 TEST(HostileReader, servesAHostThatIgnoresItsChildren) {

@@ -42,14 +42,23 @@ class Descriptor {
   int fd_;
 };
 
+// In a program that has closed its standard input or output new descriptors take their places, which the child's own would
+// then overwrite.
+Descriptor aboveStandard(int fd) {
+  if (fd < 0 || fd > kHandoverFd) return Descriptor(fd);
+  const Descriptor low(fd);
+  return Descriptor(::fcntl(fd, F_DUPFD_CLOEXEC, kHandoverFd + 1));
+}
+
 std::string systemReason(int code) { return std::generic_category().message(code); }
 
 std::optional<fs::path> findReader() {
   if (const char* named = std::getenv("UMBRAGE_READER"); named != nullptr && *named != '\0') return fs::path(named);
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (const fs::path& candidate : {program / "umbrage-reader", program / UMBRAGE_READER_FROM_PROGRAM / "umbrage-reader",
-                                    fs::path(UMBRAGE_READER_INSTALLED), fs::path(UMBRAGE_READER_BUILT)})
+  for (const fs::path& candidate :
+       {program / "umbrage-reader", program / UMBRAGE_READER_FROM_PROGRAM / "umbrage-reader",
+        fs::path(UMBRAGE_READER_INSTALLED), fs::path(UMBRAGE_READER_BUILT)})
     if (candidate.is_absolute() && ::access(candidate.c_str(), X_OK) == 0) return candidate;
   return std::nullopt;
 }
@@ -214,12 +223,12 @@ Result<std::vector<std::byte>> runReader(const ReaderJob& job) {
   if (!reader)
     return fail(ErrorCode::unsupported,
                 "the program umbrage-reader is not installed beside this one; set UMBRAGE_READER to where it is");
-  const Descriptor handover(::memfd_create("umbrage-handover", MFD_CLOEXEC));
+  const Descriptor handover = aboveStandard(::memfd_create("umbrage-handover", MFD_CLOEXEC));
   std::array<int, 2> ends{-1, -1};
   if (handover.get() < 0 || ::pipe2(ends.data(), O_CLOEXEC) != 0)
     return fail(ErrorCode::input, "no descriptors left to read it with: " + systemReason(errno));
-  const Descriptor hear(ends[0]);
-  Descriptor speak(ends[1]);
+  const Descriptor hear = aboveStandard(ends[0]);
+  Descriptor speak = aboveStandard(ends[1]);
   ::fcntl(hear.get(), F_SETFL, O_NONBLOCK);
 
   const auto deadline = Clock::now() + job.timeLimit;
