@@ -175,6 +175,15 @@ TEST(Obj, concavePolygonIsCutInside) {
   EXPECT_NEAR(area, 7.0, 1e-9);
 }
 
+// A ring that crosses itself has no ears; the two caps of this prism must still share all edges with its sides.
+TEST(Obj, aPrismOverACrossingRingIsClosed) {
+  const test::Folder folder;
+  const auto scene = loaded(folder.write("prism.obj",
+                                         "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 2 0\nv 0 0 1\nv 2 2 1\nv 2 0 1\nv 0 2 1\n"
+                                         "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"));
+  EXPECT_EQ(test::wholeReport<Vec3>(scene).borderEdges, 0U);
+}
+
 TEST(Obj, whatIsNotFiniteIsDroppedAndCounted) {
   const test::Folder folder;
   const auto scene =

@@ -4,7 +4,6 @@
 // - OBJ, PLY, STL, OFF and X3D keep the file's axes. 3DS and IFC are turned to Y up in the root node's transform; the turn is
 //   taken back here, so that both are Z up like their files. IFC lengths come in metres whatever the file's unit is.
 // - OBJ: each object and each group becomes a node of its own, named after it; a mesh inside it is a run of one material.
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <assimp/DefaultIOSystem.h>
@@ -16,6 +15,7 @@
 
 #include "umbrage/base/file.hpp"
 #include "umbrage/io/reader/files.hpp"
+#include "umbrage/io/reader/polygon.hpp"
 #include "umbrage/io/reader/read.hpp"
 #include "umbrage/io/reader/tidy.hpp"
 
@@ -80,14 +80,30 @@ scene::Material materialOf(const aiMaterial& given, unsigned index) {
   return m;
 }
 
+bool isUsable(const aiFace& face, const mesh::Mesh& m) {
+  return std::all_of(face.mIndices, face.mIndices + face.mNumIndices, [&](unsigned corner) {
+    return corner < m.positions.size() && std::isfinite(glm::dot(m.positions[corner], m.positions[corner]));
+  });
+}
+
+// Polygons are cut here and not by assimp, which gives up where it finds no ear and so opens closed surfaces.
+void addFace(const aiFace& face, mesh::Mesh& m) {
+  const unsigned* corners = face.mIndices;
+  if (face.mNumIndices < 3) return;
+  if (face.mNumIndices > 3 && isUsable(face, m)) {
+    const auto cut = triangulate(m.positions, {{corners, corners + face.mNumIndices}});
+    m.triangles.insert(m.triangles.end(), cut.begin(), cut.end());
+  } else {  // as a fan, so that what is not usable is counted
+    for (unsigned k = 1; k + 1 < face.mNumIndices; ++k) m.triangles.push_back({corners[0], corners[k], corners[k + 1]});
+  }
+}
+
 mesh::Mesh meshOf(const aiMesh& given, std::size_t materialCount) {
   mesh::Mesh m;
   m.name = given.mName.C_Str();
   for (unsigned i = 0; i < given.mNumVertices; ++i)
     m.positions.emplace_back(given.mVertices[i].x, given.mVertices[i].y, given.mVertices[i].z);
-  for (unsigned i = 0; i < given.mNumFaces; ++i)
-    if (const aiFace& face = given.mFaces[i]; face.mNumIndices == 3)
-      m.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
+  for (unsigned i = 0; i < given.mNumFaces; ++i) addFace(given.mFaces[i], m);
   m.materials.assign(m.triangles.size(), given.mMaterialIndex < materialCount ? given.mMaterialIndex : 0);
   return m;
 }
@@ -168,8 +184,8 @@ Result<scene::Scene> readWithAssimp(const Request& request, detail::Format forma
   Assimp::Importer importer;
   importer.SetIOHandler(new FolderOnly(request.file.parent_path()));
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-  // No other step: joining, sorting or cleaning would lose parts or move points.
-  const aiScene* given = importer.ReadFile(request.file.string(), aiProcess_Triangulate);
+  // No steps: joining, sorting or cleaning would lose parts or move points.
+  const aiScene* given = importer.ReadFile(request.file.string(), 0);
   if (given == nullptr || given->mRootNode == nullptr) {
     const std::string reason = withoutFolder(importer.GetErrorString(), request.file);
     // assimp catches what its formats' readers throw.
