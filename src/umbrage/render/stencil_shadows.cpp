@@ -30,8 +30,10 @@ Result<shadow::LightStats> StencilShadows::mark(const scene::Light& light, const
 
   shadow::LightStats stats;
   const Vec4 homogeneous = scene::homogeneous(light, casters_.origin);
-  const LightVolume volume = prepareVolume(casters_, homogeneous, view.eye - casters_.origin, options.counting, stats);
-  stats.reason = "chosen by the host";
+  // A ray may enter a volume through a caster that the depth buffer does not hold; without caps nobody would count that.
+  const Counting counting = options.castersInDepth ? options.counting : Counting::zFail;
+  const LightVolume volume = prepareVolume(casters_, homogeneous, view.eye - casters_.origin, counting, stats);
+  stats.reason = options.castersInDepth ? "chosen by the host" : "the casters are not in the depth buffer";
   GpuLight& gpu = light_.front();
   for (const auto& done :
        {gpu.view.setOne(viewBlock(view, casters_.origin, homogeneous)), gpu.volume.setAll(volume.indices)})
