@@ -5,11 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "graphics.hpp"
 #include "umbrage/techniques/cpu/registry.hpp"
-#ifdef UMBRAGE_CLI_WITH_GL
-#include "umbrage/gl/context.hpp"
-#include "umbrage/techniques/gl/registry.hpp"
-#endif
 
 namespace umbrage::cli {
 namespace {
@@ -23,36 +20,26 @@ const shadow::TechniqueEntry* find(const std::vector<shadow::TechniqueEntry>& en
 struct Choice {
   std::string name;
   std::string reason;
+  std::string renderer;
 };
 
 Choice chooseAutomatically() {
   const Graphics graphics = findGraphics();
-  if (graphics.renderer.empty()) return {"ray_traced", fmt::format("auto: no graphics ({})", graphics.reason)};
+  if (graphics.renderer.empty()) return {"ray_traced", fmt::format("auto: no graphics ({})", graphics.reason), ""};
   if (graphics.software)
     return {"ray_traced",
-            fmt::format("auto: no GPU, OpenGL runs on the CPU ({}), where tracing rays is faster", graphics.renderer)};
-  return {"zpass", fmt::format("auto: shadow volumes on the GPU ({})", graphics.renderer)};
+            fmt::format("auto: no GPU, and tracing rays is faster than OpenGL on the CPU ({})", graphics.renderer),
+            graphics.renderer};
+  return {"zpass", fmt::format("auto: shadow volumes on the GPU ({})", graphics.renderer), graphics.renderer};
 }
 
 }  // namespace
 
 std::vector<shadow::TechniqueEntry> allTechniques() {
   auto entries = techniques::cpuTechniques();
-#ifdef UMBRAGE_CLI_WITH_GL
-  auto graphics = techniques::glTechniques();
+  auto graphics = graphicsTechniques();
   std::move(graphics.begin(), graphics.end(), std::back_inserter(entries));
-#endif
   return entries;
-}
-
-Graphics findGraphics() {
-#ifdef UMBRAGE_CLI_WITH_GL
-  const auto context = gl::Context::createHeadless();
-  if (!context) return {"", false, context.error().text()};
-  return {(*context)->renderer(), (*context)->isSoftware(), ""};
-#else
-  return {"", false, "this build has no OpenGL"};
-#endif
 }
 
 Result<std::string> parseTechnique(const std::string& word) {
@@ -66,7 +53,7 @@ Result<std::string> parseTechnique(const std::string& word) {
 }
 
 Result<Chosen> chooseTechnique(const std::string& name) {
-  const Choice choice = name == "auto" ? chooseAutomatically() : Choice{name, "as asked"};
+  const Choice choice = name == "auto" ? chooseAutomatically() : Choice{name, "as asked", ""};
   const auto entries = allTechniques();
   const auto* entry = find(entries, choice.name);
   if (entry == nullptr) return fail(ErrorCode::usage, fmt::format("there is no technique '{}'", choice.name));
@@ -77,7 +64,8 @@ Result<Chosen> chooseTechnique(const std::string& name) {
     error.where.clear();
     return tl::unexpected(error);
   }
-  return Chosen{std::move(*technique), choice.reason};
+  const bool named = name != "auto" && entry->traits.needsGraphics;
+  return Chosen{std::move(*technique), choice.reason, named ? findGraphics().renderer : choice.renderer};
 }
 
 }  // namespace umbrage::cli

@@ -10,6 +10,7 @@ namespace umbrage::cli {
 [[nodiscard]] Run addSun(CLI::App& app);
 [[nodiscard]] Run addRender(CLI::App& app);
 [[nodiscard]] Run addCompare(CLI::App& app);
+[[nodiscard]] Run addProfile(CLI::App& app);
 [[nodiscard]] Run addSample(CLI::App& app);
 
 }  // namespace umbrage::cli

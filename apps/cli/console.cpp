@@ -103,4 +103,6 @@ DeferredSignals::~DeferredSignals() {
   if (pendingSignal != 0) std::raise(pendingSignal);
 }
 
+bool DeferredSignals::pending() const { return pendingSignal != 0; }
+
 }  // namespace umbrage::cli

@@ -67,6 +67,8 @@ class DeferredSignals {
   ~DeferredSignals();
   DeferredSignals(const DeferredSignals&) = delete;
   DeferredSignals& operator=(const DeferredSignals&) = delete;
+  /// One of them has come: long work had better stop.
+  [[nodiscard]] bool pending() const;
 
  private:
   using Handler = void (*)(int);

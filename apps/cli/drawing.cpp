@@ -14,6 +14,7 @@ Result<Drawing> draw(const std::string& technique, const std::shared_ptr<const s
   if (!chosen) return tl::unexpected(chosen.error());
   drawing.traits = chosen->technique->traits();
   drawing.reason = chosen->reason;
+  drawing.renderer = chosen->renderer;
   drawing.createMs = watch.lap();
   if (const auto prepared = chosen->technique->prepare(geometry); !prepared) return tl::unexpected(prepared.error());
   drawing.prepareMs = watch.lap();

@@ -10,7 +10,8 @@ namespace umbrage::cli {
 /// A frame shaded by one technique.
 struct Drawing {
   shadow::Traits traits;
-  std::string reason;  ///< why this technique
+  std::string reason;    ///< why this technique
+  std::string renderer;  ///< the GL renderer string, where graphics were looked for
   shadow::Shading shading;
   double createMs = 0.0, prepareMs = 0.0, shadeMs = 0.0;
 };

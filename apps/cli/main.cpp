@@ -28,6 +28,7 @@ constexpr Command kCommands[] = {
     {"sun", "Where the sun stands at a place and time", addSun},
     {"render", "A picture of a scene with exact shadows", addRender},
     {"compare", "Two techniques on one picture: which pixels differ", addCompare},
+    {"profile", "The shadows of a day: every step over the scene, and the time in shadow", addProfile},
     {"sample", "Writes one of the scenes that come with the program", addSample},
 };
 

@@ -2,6 +2,7 @@
 
 #include "commands.hpp"
 #include "drawing.hpp"
+#include "graphics.hpp"
 #include "outputs.hpp"
 #include "stats.hpp"
 #include "umbrage/base/file.hpp"
@@ -16,11 +17,14 @@ struct RenderOptions {
   ViewOptions view;
   std::string technique = "auto";
   std::string picture, mask, stats;  ///< paths; empty: not asked for
+  std::vector<std::string> show;     ///< what is drawn over the picture
 };
 
 Result<void> checkFiles(const RenderOptions& options) {
   if (options.picture.empty() && options.mask.empty() && options.stats.empty())
     return fail(ErrorCode::usage, "nothing to write: give -o OUT.png, --mask MASK.png or --stats STATS.json");
+  if (!options.show.empty() && options.picture.empty())
+    return fail(ErrorCode::usage, "--show draws on the picture: give -o OUT.png");
   std::vector<std::string> paths;
   for (const auto& [option, path] : {std::pair("-o", options.picture), std::pair("--mask", options.mask)}) {
     if (path.empty()) continue;
@@ -45,6 +49,16 @@ std::vector<Output> outputs(const RenderOptions& options, const image::RgbImage&
   return list;
 }
 
+/// The picture asked for; empty when none is.
+Result<image::RgbImage> paint(const RenderOptions& options, const View& view, const shadow::Geometry& geometry,
+                              const Drawing& drawing) {
+  if (options.picture.empty()) return image::RgbImage();
+  auto picture = shadow::composite(view.scene, geometry.surfaces, view.camera, drawing.shading.surface, view.lights,
+                                   drawing.shading.masks, {.ambient = options.view.ambient});
+  if (options.show.empty()) return picture;
+  return drawOver(picture, options.show, geometry, {view.camera, view.lights});
+}
+
 Result<Outcome> run(const RenderOptions& options, const Console& console) {
   if (const auto open = checkFiles(options); !open) return tl::unexpected(open.error());
   Stopwatch watch;
@@ -58,10 +72,8 @@ Result<Outcome> run(const RenderOptions& options, const Console& console) {
   const auto drawing = draw(options.technique, geometry, *view);
   if (!drawing) return tl::unexpected(drawing.error());
   watch.lap();
-  image::RgbImage picture;
-  if (!options.picture.empty())
-    picture = shadow::composite(view->scene, geometry->surfaces, view->camera, drawing->shading.surface, view->lights,
-                                drawing->shading.masks, {.ambient = options.view.ambient});
+  const auto picture = paint(options, *view, *geometry, *drawing);
+  if (!picture) return tl::unexpected(picture.error());
   const Stats stats{*view,
                     *geometry,
                     *drawing,
@@ -70,9 +82,9 @@ Result<Outcome> run(const RenderOptions& options, const Console& console) {
                      {"start", drawing->createMs},
                      {"prepare", drawing->prepareMs},
                      {"shade", drawing->shadeMs},
-                     {"composite", watch.lap()}}};
+                     {"picture", watch.lap()}}};
   console.detail(statsText(stats));
-  if (const auto written = writeOutputs(outputs(options, picture, stats)); !written)
+  if (const auto written = writeOutputs(outputs(options, *picture, stats)); !written)
     return tl::unexpected(written.error());
   return Outcome{};
 }
@@ -88,6 +100,10 @@ Run addRender(CLI::App& app) {
   addWord(app, "--stats", "STATS.json", "What was done, why, and how long it took", options->stats);
   addValue(app, "--technique", "NAME|auto", "How shadows are computed (see umbrage techniques; default auto)",
            options->technique, parseTechnique);
+  addValue(app, "--show", "WHAT", "Draws volumes, silhouette or both (with a comma) over the picture; needs graphics",
+           options->show, [](const std::string& word) {
+             return parseWords(word, {"volumes", "silhouette"});
+           });
   addCameraOptions(app, options->view);
   addLightOptions(app, options->view);
   addGroundOption(app, options->view);

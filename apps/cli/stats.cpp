@@ -54,12 +54,12 @@ double total(const std::vector<shadow::PhaseTime>& phases) {
 std::string statsJson(const Stats& stats) {
   const auto& camera = stats.view.camera;
   const auto& shading = stats.drawing.shading;
-  const Graphics graphics = stats.drawing.traits.needsGraphics ? findGraphics() : Graphics{};
+  const auto& renderer = stats.drawing.renderer;
   Json json{{"umbrage", UMBRAGE_VERSION},
             {"scene", stats.view.scene.source},
             {"technique", stats.drawing.traits.name},
             {"reason", stats.drawing.reason},
-            {"gl_renderer", graphics.renderer.empty() ? Json(nullptr) : Json(graphics.renderer)},
+            {"gl_renderer", renderer.empty() ? Json(nullptr) : Json(renderer)},
             {"size", {camera.width, camera.height}},
             {"covered_pixels", coveredPixels(shading.surface)},
             {"triangles", stats.geometry.surfaces.triangles.size()},

@@ -2,6 +2,7 @@
 
 #include "choice.hpp"
 #include "commands.hpp"
+#include "graphics.hpp"
 #include "json.hpp"
 
 namespace umbrage::cli {

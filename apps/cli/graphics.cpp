@@ -1,0 +1,43 @@
+#include "graphics.hpp"
+
+#include <algorithm>
+
+#ifdef UMBRAGE_CLI_WITH_GL
+#include "umbrage/gl/context.hpp"
+#include "umbrage/render/overlay.hpp"
+#include "umbrage/techniques/gl/registry.hpp"
+#endif
+
+namespace umbrage::cli {
+
+#ifdef UMBRAGE_CLI_WITH_GL
+
+Graphics findGraphics() {
+  const auto context = gl::Context::createHeadless();
+  if (!context) return {"", false, context.error().text()};
+  return {(*context)->renderer(), (*context)->isSoftware(), ""};
+}
+
+std::vector<shadow::TechniqueEntry> graphicsTechniques() { return techniques::glTechniques(); }
+
+Result<image::RgbImage> drawOver(const image::RgbImage& picture, const std::vector<std::string>& what,
+                                 const shadow::Geometry& geometry, const shadow::Frame& frame) {
+  const auto asked = [&](const char* word) { return std::find(what.begin(), what.end(), word) != what.end(); };
+  return render::drawOverlay(picture, geometry, frame.camera, frame.lights,
+                             {.volumes = asked("volumes"), .silhouette = asked("silhouette")});
+}
+
+#else
+
+Graphics findGraphics() { return {"", false, "this build has no OpenGL"}; }
+
+std::vector<shadow::TechniqueEntry> graphicsTechniques() { return {}; }
+
+Result<image::RgbImage> drawOver(const image::RgbImage&, const std::vector<std::string>&, const shadow::Geometry&,
+                                 const shadow::Frame&) {
+  return fail(ErrorCode::device, "--show draws with OpenGL, which this build has not got");
+}
+
+#endif
+
+}  // namespace umbrage::cli
