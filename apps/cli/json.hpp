@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 #include "umbrage/math/box.hpp"
@@ -11,9 +13,7 @@ using Json = nlohmann::ordered_json;
 
 [[nodiscard]] inline Json toJson(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
-/// Indented text with a final newline; bytes that are no UTF-8 (from a hostile file) are replaced.
-[[nodiscard]] inline std::string jsonText(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+/// Indented text with a final newline, lists of numbers in one line; bytes that are no UTF-8 (from a hostile file) are replaced.
+[[nodiscard]] std::string jsonText(const Json& json);
 
 }  // namespace umbrage::cli

@@ -15,8 +15,9 @@ using testing::HasSubstr;
 
 template <class T>
 std::string messageOf(const Result<T>& result) {
-  if (!result) EXPECT_EQ(result.error().code, ErrorCode::usage);
-  return result ? "" : result.error().message;
+  if (result) return {};
+  EXPECT_EQ(result.error().code, ErrorCode::usage);
+  return result.error().message;
 }
 
 TEST(ParseNumber, TakesWholeFiniteWordsOnly) {

@@ -13,6 +13,9 @@ namespace {
 constexpr double kSunAzimuth = 160.0;
 constexpr double kSunElevation = 40.0;
 
+// How far around the scene the ground is framed too, in heights of the scene.
+constexpr double kShadowRoom = 0.4;
+
 // Surface and depth, masks and their pictures, with room for what a technique keeps beside them.
 constexpr double kBytesPerPixel = 24.0;
 constexpr double kBytesPerPixelAndLight = 4.0;
@@ -34,8 +37,17 @@ scene::Light defaultSun(scene::UpAxis up, Angle north) {
   return light;
 }
 
+// What is framed: the scene, on a ground with room for its shadows.
+Box3 framed(const scene::Scene& scene, bool onGround) {
+  Box3 box = scene::bounds(scene);
+  if (!onGround || box.empty()) return box;
+  const Vec3 up = scene::upVector(scene.up);
+  const Vec3 room = kShadowRoom * glm::dot(box.size(), up) * (Vec3(1.0) - up);
+  return {box.min - room, box.max + room};
+}
+
 Result<scene::Camera> makeCamera(const scene::Scene& scene, const ViewOptions& options) {
-  scene::Camera camera = scene::frameAll(scene::bounds(scene), scene.up, scene.northOffset, options.fov,
+  scene::Camera camera = scene::frameAll(framed(scene, options.ground.has_value()), scene.up, scene.northOffset, options.fov,
                                          options.size.width, options.size.height);
   if (options.eye) {
     camera.eye = *options.eye;

@@ -145,6 +145,35 @@ TEST_F(Behaviour, SunMatchesTheAlmanac) {
   }
 }
 
+TEST_F(Behaviour, AProfileIsThreePictures) {
+  const std::vector<std::string> words{"profile", writeBox(), "-o",         file("p.png"), "--lat",  "-33.9",  "--lon",
+                                       "151.2",   "--date",   "2026-06-21", "--tz",        "solar",  "--from", "10:00",
+                                       "--to",    "14:00",    "--step",     "60",          "--size", "320x200"};
+  const Ran ran = umbrage(words);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(ran.out, file("p.png") + "\n" + file("p-hours.png") + "\n" + file("p.gif") + "\n");
+  EXPECT_THAT(files(), ElementsAre("box.off", "p-hours.png", "p.gif", "p.png"));
+  auto again = words;
+  again[3] = file("q.png");
+  ASSERT_EQ(umbrage(again).code, 0);
+  for (const auto* suffix : {".png", "-hours.png", ".gif"})
+    EXPECT_TRUE(read("p" + std::string(suffix)) == read("q" + std::string(suffix)));
+  auto parts = words;
+  parts.insert(parts.end(), {"--casters", "no-such-part"});
+  EXPECT_EQ(umbrage(parts).code, 2);
+}
+
+TEST_F(Behaviour, VolumesAreShownWhereThereAreGraphics) {
+  const auto box = writeBox();
+  const Ran plain = umbrage({"render", box, "--ground", "-o", file("plain.png"), "--size", "160x120"});
+  ASSERT_EQ(plain.code, 0) << plain.err;
+  const Ran shown = umbrage(
+      {"render", box, "--ground", "-o", file("shown.png"), "--size", "160x120", "--show", "volumes,silhouette"});
+  ASSERT_TRUE(shown.code == 0 || shown.code == 4) << shown.err;
+  EXPECT_EQ(exists("shown.png"), shown.code == 0);
+  EXPECT_FALSE(read("plain.png") == read("shown.png"));
+}
+
 TEST_F(Behaviour, SamplesAreListedAndWritten) {
   const Ran list = umbrage({"sample", "--list"});
   ASSERT_EQ(list.code, 0);

@@ -108,6 +108,11 @@ std::vector<std::string> CliTest::files() const {
   return names;
 }
 
+std::string CliTest::read(const std::string& name) const {
+  std::ifstream in(folder_ / name, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 std::string CliTest::write(const std::string& name, const std::string& text) const {
   std::ofstream(folder_ / name, std::ios::binary) << text;
   return file(name);

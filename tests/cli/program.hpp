@@ -37,6 +37,8 @@ class CliTest : public testing::Test {
   [[nodiscard]] bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
   /// Names of all files in the folder, sorted; also hidden ones.
   [[nodiscard]] std::vector<std::string> files() const;
+  /// The bytes of a file; empty when there is none.
+  [[nodiscard]] std::string read(const std::string& name) const;
   std::string write(const std::string& name, const std::string& text) const;
   /// A box from (-1,-1,0) to (1,1,height), Z up.
   std::string writeBox(const std::string& name = "box.off", double height = 2.0) const;

@@ -161,13 +161,9 @@ TEST_F(RenderCommand, SameInputSameBytes) {
                        file(std::string(name) + "-mask.png"), "--size", "200x150"})
                   .code,
               0);
-  const auto bytes = [&](const std::string& name) {
-    std::ifstream in(file(name), std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(in), {});
-  };
-  EXPECT_FALSE(bytes("a.png").empty());
-  EXPECT_TRUE(bytes("a.png") == bytes("b.png"));
-  EXPECT_TRUE(bytes("a-mask.png") == bytes("b-mask.png"));
+  EXPECT_FALSE(read("a.png").empty());
+  EXPECT_TRUE(read("a.png") == read("b.png"));
+  EXPECT_TRUE(read("a-mask.png") == read("b-mask.png"));
 }
 
 // Where nothing is in shadow, shadows leave no trace: a lone square lit from the front.

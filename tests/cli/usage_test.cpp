@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "program.hpp"
 
 // Command lines that make no sense: exit code 2, the option's name and a remedy on standard error, nothing written.
@@ -44,6 +46,14 @@ Wrong render(const std::string& name, const Words& more, const std::string& says
   return {name, words, says};
 }
 
+Wrong profile(const std::string& name, const Words& more, const std::string& says) {
+  Words words{"profile", "BOX",    "-o",         "OUT",  "--lat",         "48.2",   "--lon",
+              "16.37",   "--date", "2026-09-18", "--tz", "Europe/Vienna", "--from", "09:00"};
+  if (std::find(more.begin(), more.end(), "--to") == more.end()) words.insert(words.end(), {"--to", "17:00"});
+  words.insert(words.end(), more.begin(), more.end());
+  return {name, words, says};
+}
+
 INSTANTIATE_TEST_SUITE_P(
     CommandLines, Usage,
     testing::Values(
@@ -75,6 +85,12 @@ INSTANTIATE_TEST_SUITE_P(
         render("Casters", {"--casters", "no-such-part"}, "no-such-part"),
         render("OneNameTwice", {"--mask", "OUT"}, "two outputs"),
         Wrong{"NotPng", {"render", "BOX", "-o", "picture.jpg"}, ".png"},
+        render("ShowUnknown", {"--show", "volume"}, "volumes, silhouette"),
+        Wrong{"ShowWithoutPicture", {"render", "BOX", "--mask", "OUT", "--show", "volumes"}, "--show"},
+        profile("ProfileStepZero", {"--step", "0"}, "--step"),
+        profile("ProfileStepWord", {"--step", "often"}, "--step"),
+        profile("ProfileBackwards", {"--step", "60", "--to", "05:00"}, "05:00"),
+        profile("ProfileWithoutStep", {}, "--step"),
         Wrong{"CompareWithoutTechnique", {"compare", "BOX"}, "--technique"},
         Wrong{"SampleName", {"sample", "castle", "-o", "castle.glb"}, "castle"},
         Wrong{"SampleWithoutFile", {"sample", "courtyard"}, "-o"}, Wrong{"SampleWithoutName", {"sample"}, "--list"},
@@ -97,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(CliTest, HelpAndVersionAreNoErrors) {
   const Ran help = umbrage({"--help"});
   EXPECT_EQ(help.code, 0);
-  for (const auto* command : {"info", "techniques", "sun", "render", "compare", "sample"})
+  for (const auto* command : {"info", "techniques", "sun", "render", "compare", "profile", "sample"})
     EXPECT_THAT(help.out, HasSubstr(command));
   // What later versions bring is not pretended.
   for (const auto* command : {"isochrones", "verify", "gallery"}) EXPECT_THAT(help.out, Not(HasSubstr(command)));
