@@ -23,12 +23,14 @@ bool rakes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec4& light) {
 std::vector<std::uint8_t> visibleSideFacesLight(const scene::Surfaces& surfaces, const Vec4& eye, const Vec4& light) {
   std::vector<std::uint8_t> facing;
   facing.reserve(surfaces.triangles.size());
-  for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t) {
-    const Vec3 a = surfaces.corner(t, 0), b = surfaces.corner(t, 1), c = surfaces.corner(t, 2);
-    const bool sameSide = lightSide(a, b, c, eye) * lightSide(a, b, c, light) > 0;
-    facing.push_back(sameSide && !rakes(a, b, c, light) ? 1 : 0);
-  }
+  for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t)
+    facing.push_back(visibleSideFacesLight(surfaces, t, eye, light) ? 1 : 0);
   return facing;
+}
+
+bool visibleSideFacesLight(const scene::Surfaces& surfaces, std::uint32_t triangle, const Vec4& eye, const Vec4& light) {
+  const Vec3 a = surfaces.corner(triangle, 0), b = surfaces.corner(triangle, 1), c = surfaces.corner(triangle, 2);
+  return lightSide(a, b, c, eye) * lightSide(a, b, c, light) > 0 && !rakes(a, b, c, light);
 }
 
 }  // namespace umbrage::shadow

@@ -15,4 +15,8 @@ namespace umbrage::shadow {
 [[nodiscard]] std::vector<std::uint8_t> visibleSideFacesLight(const scene::Surfaces& surfaces, const Vec4& eye,
                                                               const Vec4& light);
 
+/// The same for one triangle.
+[[nodiscard]] bool visibleSideFacesLight(const scene::Surfaces& surfaces, std::uint32_t triangle, const Vec4& eye,
+                                         const Vec4& light);
+
 }  // namespace umbrage::shadow

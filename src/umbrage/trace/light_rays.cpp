@@ -85,16 +85,15 @@ void rejectFalseHits(const RTCFilterFunctionNArguments* arguments) {
 
 struct Start {
   Vec3 from;
-  double exactBelow;  ///< distance from `from`
+  float exactBelow;  ///< distance from `from`
 };
 
 // Lifted off the surface where that is precise enough; else a little behind it, with every hit looked at in double precision.
-Start startOf(const Vec3& point, const Vec3& normal, const Vec3& towards, double length, bool finite, double precision,
-              double resolution) {
-  const double height = glm::dot(normal, towards);  // of the light above the surface (for a direction: the sine)
-  const double lift = finite ? std::min(resolution, 0.5 * height) : resolution;
-  if (lift * length <= precision * height) return {point + lift * normal, kNearResolutions * resolution};
-  return {point - (2.0 * resolution / length) * towards, std::numeric_limits<double>::infinity()};
+// `height`: of the light above the surface (for a direction: the sine of its elevation).
+Start startOf(const Vec3& point, const Vec3& normal, const Vec3& towards, double length, double height, double lift,
+              double precision, double resolution) {
+  if (lift * length <= precision * height) return {point + lift * normal, static_cast<float>(kNearResolutions * resolution)};
+  return {point - (2.0 * resolution / length) * towards, std::numeric_limits<float>::infinity()};
 }
 
 }  // namespace
@@ -120,26 +119,30 @@ std::uint32_t LightRays::hidden(const SurfacePoints8& points) const {
 
   RTCRay8 rays;
   alignas(32) int valid[8];
+  const bool finite = light_.w != 0.0;
+  const double resolution = occlusion_.resolution();
   for (std::size_t k = 0; k < 8; ++k) {
     valid[k] = 0;
     if ((points.active >> k & 1u) == 0) continue;
     const Vec3 towards = scene::towardsLight(light_, points.position[k]);
-    const double length = glm::length(towards);
-    const Start start = startOf(points.position[k], points.normal[k], towards, length, light_.w != 0.0,
-                                points.precision[k], occlusion_.resolution());
-    const double end = light_.w == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 - kRelativeCut - cut_ / length;
-    if (!(end > 0.0)) continue;
+    const double length = finite ? glm::length(towards) : 1.0;
+    const float inverse = 1.0f / static_cast<float>(length);
+    const double height = glm::dot(points.normal[k], towards);
+    const Start start = startOf(points.position[k], points.normal[k], towards, length, height,
+                                finite ? std::min(resolution, 0.5 * height) : resolution, points.precision[k], resolution);
+    const float end = finite ? 1.0f - float(kRelativeCut) - float(cut_) * inverse : std::numeric_limits<float>::infinity();
+    if (!(end > 0.0f)) continue;
     const Vec3f from(start.from);
-    const Vec3f along(light_.w == 0.0 ? towards : Vec3(light_) - Vec3(from));
+    const Vec3f along(finite ? Vec3(light_) - Vec3(from) : towards);
     rays.org_x[k] = from.x, rays.org_y[k] = from.y, rays.org_z[k] = from.z;
     rays.dir_x[k] = along.x, rays.dir_y[k] = along.y, rays.dir_z[k] = along.z;
     rays.tnear[k] = 0.0f;
-    rays.tfar[k] = static_cast<float>(end);
+    rays.tfar[k] = end;
     rays.time[k] = 0.0f;
     rays.mask[k] = ~0u;
     rays.id[k] = static_cast<unsigned>(k);
     rays.flags[k] = 0;
-    query.exactBelow[k] = static_cast<float>(start.exactBelow / length);
+    query.exactBelow[k] = start.exactBelow * inverse;
     valid[k] = -1;
   }
   detail::occluded(trees, valid, query.context, rays);

@@ -1,4 +1,6 @@
+#include <array>
 #include <chrono>
+#include <cmath>
 
 #include "umbrage/shadow/facing.hpp"
 #include "umbrage/techniques/cpu/detail/ray_traced.hpp"
@@ -15,6 +17,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double kPixelPart = 0.125;
 // Below this sine between view and surface the plane says less about the depth than the surface buffer does.
 constexpr double kEdgeOn = 1e-4;
+// Far above what double arithmetic loses and what visibleSideFacesLight takes as edge-on (2^-20).
+constexpr double kSurely = 0x1p-18;
 
 double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -37,6 +41,30 @@ std::vector<Plane> planesOf(const scene::Surfaces& surfaces) {
   return planes;
 }
 
+/// Signed distances from a triangle's plane of the eye and of the light (for a direction: the sine of its elevation).
+struct Heights {
+  double eye, light;
+};
+Heights heightsOver(const Plane& plane, const Vec3& eye, const Vec4& light) {
+  return {glm::dot(plane.normal, eye) - plane.offset, glm::dot(plane.normal, Vec3(light)) - plane.offset * light.w};
+}
+
+// shadow::visibleSideFacesLight, told by the planes wherever they leave no doubt: it costs a fraction, and differs nowhere, since
+// it decides only heights of more than kSurely of the lengths they are computed from.
+std::vector<std::uint8_t> facingOf(const scene::Surfaces& surfaces, const std::vector<Plane>& planes, const Vec3& eye,
+                                   const Vec4& light) {
+  std::vector<std::uint8_t> facing(planes.size());
+  const double reach = glm::length(glm::max(glm::abs(surfaces.bounds.min), glm::abs(surfaces.bounds.max)));
+  const double sureOfEye = kSurely * (glm::length(eye) + reach);
+  const double sureOfLight = kSurely * (glm::length(Vec3(light)) + light.w * reach);
+  for (std::uint32_t t = 0; t < planes.size(); ++t) {
+    const Heights h = heightsOver(planes[t], eye, light);
+    const bool sure = std::abs(h.eye) > sureOfEye && std::abs(h.light) > sureOfLight;
+    facing[t] = sure ? (h.eye > 0.0) == (h.light > 0.0) : shadow::visibleSideFacesLight(surfaces, t, Vec4(eye, 1.0), light);
+  }
+  return facing;
+}
+
 /// What the pixels of one light's mask are computed from.
 struct Shadowing {
   const scene::Surfaces& surfaces;
@@ -44,35 +72,38 @@ struct Shadowing {
   const shadow::SurfaceBuffer& seen;
   const trace::LightRays& lightRays;
   const scene::Light& light;
+  bool spot;
   std::vector<std::uint8_t> facing;  ///< per triangle
   Vec3 eye;                          ///< relative to the origin of the surfaces
   scene::PixelRays rays;
-  double pixelWidth;  ///< at depth 1
+  std::array<Vec3, 8> step;  ///< from the direction through a packet's first pixel to its others
+  double precision;          ///< of shadow borders, at depth 1
 };
 
-/// The point a pixel's centre shows, in double precision.
-Vec3 surfacePoint(const Shadowing& s, int x, int y, const Plane& plane) {
-  const Vec3 direction = s.rays.through(x + 0.5, y + 0.5);
-  const double slope = glm::dot(plane.normal, direction);
-  const double depth =
-      std::abs(slope) < kEdgeOn ? s.seen.depth(x, y) : (plane.offset - glm::dot(plane.normal, s.eye)) / slope;
-  return s.eye + depth * direction;
+std::array<Vec3, 8> stepsOf(const scene::PixelRays& rays) {
+  std::array<Vec3, 8> step;
+  for (int k = 0; k < 8; ++k) step[static_cast<std::size_t>(k)] = double(k & 3) * rays.dx + double(k >> 2) * rays.dy;
+  return step;
 }
 
 void shadePacket(const Shadowing& s, const trace::Tile& tile, int x, int y, image::GreyImage& lit) {
   trace::SurfacePoints8 points;
+  const Vec3 corner = s.rays.through(x + 0.5, y + 0.5);
   trace::forEachLane(tile, x, y, [&](int lane, int px, int py) {
     const std::uint32_t triangle = s.seen.triangle(px, py);
     if (triangle == shadow::kNoTriangle || s.facing[triangle] == 0) return;
     const Plane& plane = s.planes[triangle];
-    const Vec3 point = surfacePoint(s, px, py, plane);
-    if (!scene::insideCone(s.light, point + s.surfaces.origin)) return;
+    const Vec3 direction = corner + s.step[static_cast<std::size_t>(lane)];
+    // The point that the pixel's centre shows, in double precision. The visible side faces the light: towards the eye is towards it.
+    const double slope = glm::dot(plane.normal, direction), seen = s.seen.depth(px, py);
+    const double depth = std::abs(slope) < kEdgeOn ? seen : (plane.offset - glm::dot(plane.normal, s.eye)) / slope;
+    const Vec3 point = s.eye + depth * direction;
+    if (s.spot && !scene::insideCone(s.light, point + s.surfaces.origin)) return;
     const auto k = static_cast<std::size_t>(lane);
-    const bool towards = glm::dot(plane.normal, scene::towardsLight(s.lightRays.light(), point)) >= 0.0;
     points.position[k] = point;
-    points.normal[k] = towards ? plane.normal : -plane.normal;
+    points.normal[k] = std::copysign(1.0, -slope) * plane.normal;  // the sense is random: a branch would cost more
     points.triangle[k] = triangle;
-    points.precision[k] = kPixelPart * s.pixelWidth * double(s.seen.depth(px, py));
+    points.precision[k] = s.precision * seen;
     points.active |= 1u << lane;
   });
   if (points.active == 0) return;
@@ -133,10 +164,12 @@ class RayTraced final : public shadow::Technique {
                       seen,
                       lightRays,
                       light,
-                      shadow::visibleSideFacesLight(surfaces, Vec4(eye, 1.0), lightRays.light()),
+                      std::holds_alternative<scene::SpotLight>(light.shape),
+                      facingOf(surfaces, planes_, eye, lightRays.light()),
                       eye,
                       rays,
-                      std::min(glm::length(rays.dx), glm::length(rays.dy))};
+                      stepsOf(rays),
+                      kPixelPart * std::min(glm::length(rays.dx), glm::length(rays.dy))};
     shadow::LightMask mask{{camera.width, camera.height, 0}, {}, coverage(seen)};
     const auto done = trace::forEachTile(camera.width, camera.height, [&](const trace::Tile& tile) {
       for (int y = tile.y0; y < tile.y1; y += 2)
