@@ -24,10 +24,15 @@ struct View {
   double near;   ///< distance from the eye in which single precision may be wrong about a hit
 };
 
-// Single precision may hit a triangle whose plane holds the eye, which shows nothing.
-bool edgeOn(const View& view, std::uint32_t triangle, const Vec3& direction) {
-  const Vec3 normal = view.occlusion.surfaces().normal(triangle);
-  return std::abs(glm::dot(normal, direction)) <= kEdgeOn * glm::length(normal) * glm::length(direction);
+// A hit in single precision, made exact. Nothing where that takes a second look: very near the eye, or edge-on, where a triangle
+// may be hit whose plane holds the eye and which shows nothing.
+std::optional<double> exactDepth(const View& view, std::uint32_t triangle, const Vec3& direction, double estimate) {
+  const Corners c = view.occlusion.corners(triangle);
+  const Vec3 normal = glm::cross(c.b - c.a, c.c - c.a);
+  const double slope = glm::dot(normal, direction), square = glm::dot(direction, direction);
+  const bool edgeOn = slope * slope <= kEdgeOn * kEdgeOn * glm::dot(normal, normal) * square;
+  if (edgeOn || estimate * estimate * square <= view.near * view.near) return std::nullopt;
+  return glm::dot(c.a - view.eye, normal) / slope;
 }
 
 void castPacket(const View& view, const Tile& tile, int x, int y, shadow::SurfaceBuffer& out) {
@@ -37,7 +42,7 @@ void castPacket(const View& view, const Tile& tile, int x, int y, shadow::Surfac
   forEachLane(tile, x, y, [&](int lane, int px, int py) {
     const auto k = static_cast<std::size_t>(lane);
     direction[k] = view.rays.through(px + 0.5, py + 0.5);
-    start[k] = 0.99 * view.clear / glm::length(direction[k]);
+    if (view.clear > 0.0) start[k] = 0.99 * view.clear / glm::length(direction[k]);
     const Vec3f from(view.eye + start[k] * direction[k]), d(direction[k]);
     rays.fromX[k] = from.x, rays.fromY[k] = from.y, rays.fromZ[k] = from.z;
     rays.directionX[k] = d.x, rays.directionY[k] = d.y, rays.directionZ[k] = d.z;
@@ -49,12 +54,13 @@ void castPacket(const View& view, const Tile& tile, int x, int y, shadow::Surfac
     const auto k = static_cast<std::size_t>(lane);
     if (hits.triangle[k] == shadow::kNoTriangle) return;
     const double estimate = start[k] + double(hits.at[k]);
-    const Hit hit = {hits.triangle[k], refine(view.occlusion.corners(hits.triangle[k]), view.eye, direction[k], estimate)};
-    const bool doubtful = hit.at * glm::length(direction[k]) <= view.near || edgeOn(view, hit.triangle, direction[k]);
-    const auto sure = doubtful ? view.occlusion.nearest(view.eye, direction[k]) : std::optional(hit);
-    if (!sure) return;
-    out.triangle(px, py) = sure->triangle;
-    out.depth(px, py) = static_cast<float>(sure->at);
+    if (const auto depth = exactDepth(view, hits.triangle[k], direction[k], estimate)) {
+      out.triangle(px, py) = hits.triangle[k];
+      out.depth(px, py) = static_cast<float>(*depth);
+    } else if (const auto hit = view.occlusion.nearest(view.eye, direction[k])) {
+      out.triangle(px, py) = hit->triangle;
+      out.depth(px, py) = static_cast<float>(hit->at);
+    }
   });
 }
 
