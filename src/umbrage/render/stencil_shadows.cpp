@@ -42,7 +42,7 @@ Result<shadow::LightStats> StencilShadows::mark(const scene::Light& light, const
 
   const LightPlan plan{.groups = planGroups(volume),
                        .compareCaps = !options.castersInDepth,
-                       .volumeArea = volumeArea(view, casters_.bounds, homogeneous, casters_.origin, placement),
+                       .volumeArea = volumeArea(view, casters_.bounds, {}, homogeneous, casters_.origin, placement),
                        .litArea = litArea(view, light, placement)};
   run(scope, planPasses(placement, view.reversed, {plan}, Product::hostStencil),
       {.programs = programs_, .positions = positions_, .lights = light_});

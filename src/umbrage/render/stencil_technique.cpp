@@ -172,6 +172,10 @@ class StencilTechnique final : public GlTechnique {
                              const gl::PassState& placement, shadow::LightStats& stats, const PhaseEnd& ended) {
     const shadow::CasterSet& casters = geometry_->casters;
     const Vec3& origin = geometry_->surfaces.origin;
+    const Box3& receivers = geometry_->surfaces.bounds;
+    // What z-pass counts lies between the eye and the receivers.
+    Box3 counted = receivers;
+    counted.add(view.eye - origin);
     const Vec4 homogeneous = scene::homogeneous(light, origin);
     const LightVolume volume = prepareVolume(casters, homogeneous, view.eye - origin, counting_, stats, ended);
     stats.reason = reasonFor(counting_, stats, volume.groups.size());
@@ -189,9 +193,10 @@ class StencilTechnique final : public GlTechnique {
       gl::finish();
       ended("upload");
     }
-    return LightPlan{.groups = planGroups(volume),
-                     .volumeArea = volumeArea(view, casters.bounds, homogeneous, origin, placement),
-                     .litArea = litArea(view, light, placement)};
+    return LightPlan{
+        .groups = planGroups(volume),
+        .volumeArea = volumeArea(view, casters.bounds, counted, homogeneous, origin, placement),
+        .litArea = gl::intersect(litArea(view, light, placement), boxArea(view, receivers, origin, placement))};
   }
 
   void readBack(const gl::HostScope& scope, const GpuFrame& target, const shadow::Frame& frame, shadow::Shading& out) {

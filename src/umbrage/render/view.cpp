@@ -49,6 +49,25 @@ gl::Rect pixelsOf(const View& view, const std::vector<Vec4>& points, const gl::P
   return gl::intersect({left, bottom, right - left, top - bottom}, viewport);
 }
 
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+// How far along one axis the interval of the casters must be swept to leave that of the receivers for good. A point p of the
+// casters moves by t * (p * light.w - light).
+double sweepOutAlong(int axis, const Box3& casters, const Box3& receivers, const Vec4& light) {
+  const double low = casters.min[axis] * light.w - light[axis], high = casters.max[axis] * light.w - light[axis];
+  if (low > 0.0) return std::max(0.0, (receivers.max[axis] - casters.min[axis]) / low);
+  if (high < 0.0) return std::max(0.0, (receivers.min[axis] - casters.max[axis]) / high);
+  return kEndless;
+}
+
+// How far the box of the casters must be swept away from the light until it touches no receiver any more; with a little more
+// for rounding.
+double sweepOut(const Box3& casters, const Box3& receivers, const Vec4& light) {
+  double reach = kEndless;
+  for (int axis = 0; axis < 3; ++axis) reach = std::min(reach, sweepOutAlong(axis, casters, receivers, light));
+  return reach * (1.0 + 1e-6);
+}
+
 std::array<Vec3, 8> cornersOf(const Box3& box) {
   std::array<Vec3, 8> corners;
   for (int i = 0; i < 8; ++i)
@@ -94,13 +113,25 @@ float depthToDistance(const View& view, float depth) {
   return depth > 0.0f ? static_cast<float>(view.nearDistance / double(depth)) : std::numeric_limits<float>::infinity();
 }
 
-gl::Rect volumeArea(const View& view, const Box3& bounds, const Vec4& light, const Vec3& origin,
-                    const gl::PassState& placement) {
-  if (bounds.empty()) return {};
+gl::Rect boxArea(const View& view, const Box3& box, const Vec3& origin, const gl::PassState& placement) {
+  if (box.empty()) return {};
   std::vector<Vec4> points;
-  for (const Vec3& corner : cornersOf(bounds)) {
+  for (const Vec3& corner : cornersOf(box)) points.emplace_back(corner + origin - view.eye, 1.0);
+  return pixelsOf(view, points, placement);
+}
+
+gl::Rect volumeArea(const View& view, const Box3& casters, const Box3& receivers, const Vec4& light, const Vec3& origin,
+                    const gl::PassState& placement) {
+  if (casters.empty()) return {};
+  const double reach = receivers.empty() ? kEndless : sweepOut(casters, receivers, light);
+  std::vector<Vec4> points;
+  for (const Vec3& corner : cornersOf(casters)) {
+    const Vec3 away = corner * light.w - Vec3(light);
     points.emplace_back(corner + origin - view.eye, 1.0);
-    points.emplace_back(corner * light.w - Vec3(light), 0.0);
+    if (reach < kEndless)
+      points.emplace_back(corner + reach * away + origin - view.eye, 1.0);
+    else
+      points.emplace_back(away, 0.0);
   }
   return pixelsOf(view, points, placement);
 }

@@ -31,10 +31,14 @@ struct View {
 /// Distance along the view for a depth of viewOf(Camera); infinite for 0.
 [[nodiscard]] float depthToDistance(const View& view, float depth);
 
-/// The pixels that the casters' shadow volumes can touch: the box swept away from the light. The whole viewport when any part of
-/// that crosses the plane of the eye. `bounds` and `light` are relative to `origin`.
-[[nodiscard]] gl::Rect volumeArea(const View& view, const Box3& bounds, const Vec4& light, const Vec3& origin,
-                                  const gl::PassState& placement);
+/// The pixels that a box can be seen in. The whole viewport when it crosses the plane of the eye, none when it is empty.
+/// `box` is relative to `origin`.
+[[nodiscard]] gl::Rect boxArea(const View& view, const Box3& box, const Vec3& origin, const gl::PassState& placement);
+
+/// The pixels in which the casters' shadow volumes can matter: their box swept away from the light, as far as there are
+/// receivers (for z-pass: and the eye). Same fall-back. Boxes and `light` are relative to `origin`; an empty box of receivers stands for all of space.
+[[nodiscard]] gl::Rect volumeArea(const View& view, const Box3& casters, const Box3& receivers, const Vec4& light,
+                                  const Vec3& origin, const gl::PassState& placement);
 
 /// The pixels that a light can reach: a spot's cone, otherwise the whole viewport. Same fall-back.
 [[nodiscard]] gl::Rect litArea(const View& view, const scene::Light& light, const gl::PassState& placement);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "umbrage/render/uniforms.hpp"
 
@@ -74,27 +75,37 @@ TEST(PackBits, PutsTheFirstFlagLowest) {
 }
 
 // Every point of the swept box that is in front of the eye and in the picture lies in the area.
+// Every point of the swept box that is among the receivers, in front of the eye and in the picture lies in the area.
 RC_GTEST_PROP(VolumeArea, HoldsEveryPointOfTheSweptBox, ()) {
   const Vec3 eye = point(40);
   const Vec3 target = point(10);
   RC_PRE(glm::length(eye - target) > 0.5);
   const View view = viewOf(camera(eye, target), 10.0);
-  Box3 box;
-  const Vec3 centre = point(10);
-  box.add(centre);
-  box.add(centre + Vec3(1, 2, 3));
+  const auto boxOf = [](const Vec3& centre, const Vec3& size) {
+    Box3 box;
+    box.add(centre);
+    box.add(centre + size);
+    return box;
+  };
+  const Box3 box = boxOf(point(10), Vec3(1, 2, 3));
+  const bool bounded = *rc::gen::inRange(0, 3) > 0;
+  const Box3 receivers = bounded ? boxOf(point(20), Vec3(number(0, 30), number(0, 30), number(0, 3))) : Box3{};
   const Vec3 origin = point(5);
   const Vec4 light(point(20), *rc::gen::inRange(0, 2));
   RC_PRE(glm::length(Vec3(light)) > 0.1);
-  const gl::Rect area = volumeArea(view, box, light, origin, placement());
-  for (int i = 0; i < 50; ++i) {
+  const gl::Rect area = volumeArea(view, box, receivers, light, origin, placement());
+  const gl::Rect seen = bounded ? boxArea(view, receivers, origin, placement()) : placement().viewport;
+  for (int i = 0; i < 200; ++i) {
     const Vec3 p = box.min + box.size() * Vec3(number(0, 1), number(0, 1), number(0, 1));
-    const Vec3 swept = p + number(0, 50) * (p * light.w - Vec3(light));
+    const Vec3 swept = p + number(0, 50) * 0.2 * (p * light.w - Vec3(light));
+    if (bounded && (glm::any(glm::lessThan(swept, receivers.min)) || glm::any(glm::greaterThan(swept, receivers.max))))
+      continue;
     const Vec4 relative(swept + origin - eye, 1.0);
     if ((view.toClip * relative).w <= 1e-6) continue;
     const Vec2 pixel = pixelOf(view, relative);
     if (pixel.x < 0 || pixel.y < 0 || pixel.x >= kWidth || pixel.y >= kHeight) continue;
     RC_ASSERT(!gl::intersect(area, {int(pixel.x), int(pixel.y), 1, 1}).empty());
+    RC_ASSERT(!gl::intersect(seen, {int(pixel.x), int(pixel.y), 1, 1}).empty());
   }
 }
 
@@ -124,12 +135,18 @@ TEST(VolumeArea, LeavesOutWhatTheShadowCannotReach) {
   box.add(Vec3(-1, 10, -3));
   box.add(Vec3(1, 12, -2));
   const View view = viewOf(camera({0, 0, 0}, {0, 10, 0}), 10.0);
-  const gl::Rect area = volumeArea(view, box, Vec4(0, -1, 1, 0), Vec3(0.0), placement());
+  const gl::Rect area = volumeArea(view, box, {}, Vec4(0, -1, 1, 0), Vec3(0.0), placement());
   EXPECT_FALSE(area.empty());
   EXPECT_LT(area.y + area.height, kHeight / 2);
-  EXPECT_TRUE(volumeArea(view, Box3{}, Vec4(0, -1, 1, 0), Vec3(0.0), placement()).empty());
+  EXPECT_TRUE(volumeArea(view, Box3{}, {}, Vec4(0, -1, 1, 0), Vec3(0.0), placement()).empty());
+  // Receivers just below the box end the shadow early.
+  Box3 floor;
+  floor.add(Vec3(-50, -50, -3.5));
+  floor.add(Vec3(50, 50, -2));
+  const gl::Rect ended = volumeArea(view, box, floor, Vec4(0, -1, 1, 0), Vec3(0.0), placement());
+  EXPECT_LT(ended.height, area.height);
   // With the light in front, the volume comes at the eye.
-  EXPECT_EQ(volumeArea(view, box, Vec4(0, 1, 1, 0), Vec3(0.0), placement()), placement().viewport);
+  EXPECT_EQ(volumeArea(view, box, {}, Vec4(0, 1, 1, 0), Vec3(0.0), placement()), placement().viewport);
 }
 
 }  // namespace

@@ -212,6 +212,26 @@ TEST_P(StencilTechniques, AgreeWithBruteForceForEyesAtTheSidesOfVolumes) {
   EXPECT_GT(attacks, 40u);
 }
 
+// An eye beyond the scene, in the long shadow of a tower, that looks back at lit roofs: the volume that holds it ends nowhere
+// near a surface.
+TEST_P(StencilTechniques, AgreeWithBruteForceForAnEyeInTheShadowBeyondTheScene) {
+  scene::Scene s = village();
+  s.instances = {box({0, 0, 0}, {1, 1, 12}), box({-3, 4, 0}, {1, 3, 4}), box({-6, 20, 0}, {9, 9, 2})};
+  s.instances[2].casts = false;  // far to the side, where no shadow goes
+  const auto geometry = shadow::makeGeometry(s);
+  ASSERT_TRUE(technique_->prepare(geometry));
+  const Truth truth{geometry->surfaces};
+  const scene::Light sun{scene::DirectionalLight{{-1.0, 0.2, -0.1}}};
+  for (const double distance : {2.0, 15.0, 40.0}) {
+    const scene::Camera camera = cameraFrom(Vec3(0.5, 0.5, 10.5) + distance * Vec3(-1.0, 0.2, -0.1), Vec3(-1.5, 12, 2));
+    const auto shading = technique_->shade({camera, std::span(&sun, 1)});
+    ASSERT_TRUE(shading);
+    const auto expected = truth.mask(camera, sun);
+    EXPECT_EQ(shadow::compare(shading->masks[0], expected, truth.edges(camera, expected), 1).farFromEdge, 0u)
+        << "from " << distance << ": " << shading->stats.lights[0].reason;
+  }
+}
+
 // Neither the origin of the file nor the size of the scene may matter.
 TEST_P(StencilTechniques, AgreeWithBruteForceFarFromTheOriginAndInMillimetres) {
   for (const double scale : {1.0, 1000.0}) {
