@@ -212,14 +212,14 @@ void HostScope::State::restoreBindings() const {
   glBindBuffer(GL_UNIFORM_BUFFER, static_cast<GLuint>(uniformBuffer));
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(storageBuffer));
   glBindBuffer(GL_PIXEL_PACK_BUFFER, static_cast<GLuint>(packBuffer));
+  const auto active = static_cast<GLenum>(integer(GL_ACTIVE_TEXTURE));
   for (GLuint i = 0; i < textures.size(); ++i) {
     // glBindTextureUnit(unit, 0) would unbind every target of the unit, so the 2D target is named.
-    const GLint active = integer(GL_ACTIVE_TEXTURE);
     glActiveTexture(GL_TEXTURE0 + i);
     glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(textures[i]));
-    glActiveTexture(static_cast<GLenum>(active));
     glBindSampler(i, static_cast<GLuint>(samplers[i]));
   }
+  glActiveTexture(active);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(drawFramebuffer));
   glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(readFramebuffer));
 }
