@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "commands.hpp"
@@ -49,14 +51,35 @@ std::vector<Output> outputs(const RenderOptions& options, const image::RgbImage&
   return list;
 }
 
-/// The picture asked for; empty when none is.
+/// The picture of one drawing.
 Result<image::RgbImage> paint(const RenderOptions& options, const View& view, const shadow::Geometry& geometry,
                               const Drawing& drawing) {
-  if (options.picture.empty()) return image::RgbImage();
   auto picture = shadow::composite(view.scene, geometry.surfaces, view.camera, drawing.shading.surface, view.lights,
                                    drawing.shading.masks, {.ambient = options.view.ambient});
   if (options.show.empty()) return picture;
   return drawOver(picture, options.show, geometry, {view.camera, view.lights});
+}
+
+/// The picture asked for; empty when none is. Masks and statistics stay those of one sample a pixel.
+Result<image::RgbImage> makePicture(const RenderOptions& options, const View& view,
+                                    const std::shared_ptr<const shadow::Geometry>& geometry, const Drawing& drawing) {
+  if (options.picture.empty()) return image::RgbImage();
+  if (options.view.antialias == 1) return paint(options, view, *geometry, drawing);
+  View large = view;
+  large.camera.width *= options.view.antialias;
+  large.camera.height *= options.view.antialias;
+  const auto fine = draw(options.technique, geometry, large);
+  if (!fine) return tl::unexpected(fine.error());
+  const auto picture = paint(options, large, *geometry, *fine);
+  if (!picture) return picture;
+  return shadow::averaged(*picture, options.view.antialias);
+}
+
+Result<int> parseAntialias(std::string_view word) {
+  const auto number = parseNumber(word, 1, 8);
+  if (!number) return tl::unexpected(number.error());
+  if (*number != std::floor(*number)) return fail(ErrorCode::usage, "must be a whole number, for example 2");
+  return static_cast<int>(*number);
 }
 
 Result<Outcome> run(const RenderOptions& options, const Console& console) {
@@ -72,7 +95,7 @@ Result<Outcome> run(const RenderOptions& options, const Console& console) {
   const auto drawing = draw(options.technique, geometry, *view);
   if (!drawing) return tl::unexpected(drawing.error());
   watch.lap();
-  const auto picture = paint(options, *view, *geometry, *drawing);
+  const auto picture = makePicture(options, *view, geometry, *drawing);
   if (!picture) return tl::unexpected(picture.error());
   const Stats stats{*view,
                     *geometry,
@@ -104,6 +127,8 @@ Run addRender(CLI::App& app) {
            options->show, [](const std::string& word) {
              return parseWords(word, {"volumes", "silhouette"});
            });
+  addValue(app, "--antialias", "N", "Smooth edges: N x N samples a pixel of the picture, 1 to 8 (default 1)",
+           options->view.antialias, parseAntialias);
   addCameraOptions(app, options->view);
   addLightOptions(app, options->view);
   addGroundOption(app, options->view);

@@ -87,7 +87,8 @@ Result<View> makeView(scene::Scene scene, const ViewOptions& options) {
     view.lightReason =
         fmt::format("no light given: a sun at azimuth {:.0f}, {:.0f} degrees high", kSunAzimuth, kSunElevation);
   }
-  if (const auto fits = checkMemory(options.size, view.lights.size()); !fits) return tl::unexpected(fits.error());
+  const Size drawn{options.size.width * options.antialias, options.size.height * options.antialias};
+  if (const auto fits = checkMemory(drawn, view.lights.size()); !fits) return tl::unexpected(fits.error());
   view.scene = options.ground ? scene::withGround(std::move(scene), options.ground->height) : std::move(scene);
   return view;
 }

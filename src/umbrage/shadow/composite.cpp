@@ -98,4 +98,22 @@ image::RgbImage composite(const scene::Scene& scene, const scene::Surfaces& surf
   return picture;
 }
 
+image::RgbImage averaged(const image::RgbImage& picture, int n) {
+  UMBRAGE_CHECK(n > 0 && picture.width() % n == 0 && picture.height() % n == 0, "blocks of n x n pixels");
+  std::array<double, 256> linear{};
+  for (int code = 0; code < 256; ++code) linear[code] = decodeSrgb(static_cast<std::uint8_t>(code));
+  image::RgbImage out(picture.width() / n, picture.height() / n);
+  for (int y = 0; y < out.height(); ++y) {
+    for (int x = 0; x < out.width(); ++x) {
+      Vec3 sum(0.0);
+      for (int v = 0; v < n; ++v) {
+        const image::Rgb8* row = picture.row(y * n + v) + x * n;
+        for (int u = 0; u < n; ++u) sum += Vec3(linear[row[u].r], linear[row[u].g], linear[row[u].b]);
+      }
+      out(x, y) = encode(sum / double(n * n));
+    }
+  }
+  return out;
+}
+
 }  // namespace umbrage::shadow

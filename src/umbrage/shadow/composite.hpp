@@ -30,6 +30,9 @@ inline constexpr double kSkyBase = 0.75;
                                         const SurfaceBuffer& seen, std::span<const scene::Light> lights,
                                         std::span<const LightMask> masks, const CompositeOptions& options = {});
 
+/// A picture an n-th as wide and high: every pixel the mean, in linear light, of n x n. REQUIRES: n > 0 divides both sides.
+[[nodiscard]] image::RgbImage averaged(const image::RgbImage& picture, int n);
+
 /// A linear value in [0, 1] (clamped) as an 8-bit sRGB code, and back.
 [[nodiscard]] std::uint8_t encodeSrgb(double linear);
 [[nodiscard]] double decodeSrgb(std::uint8_t code);

@@ -396,6 +396,16 @@ TEST(LightMask, ForgivesOnlyPixelsNearAnEdge) {
   EXPECT_EQ(compare(shifted, truth, edges).farFromEdge, 1u);
 }
 
+TEST(Averaged, MixesLightAndNotCodes) {
+  image::RgbImage stripes(4, 2);
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 4; x += 2) stripes(x, y) = {255, 255, 255};
+  const auto mixed = averaged(stripes, 2);
+  EXPECT_EQ(mixed.width(), 2);
+  EXPECT_EQ(mixed(1, 0).g, 188);  // half the light of white
+  EXPECT_EQ(averaged(stripes, 1), stripes);
+}
+
 TEST(Srgb, RoundTripsEveryCode) {
   for (int code = 0; code < 256; ++code) EXPECT_EQ(encodeSrgb(decodeSrgb(std::uint8_t(code))), code);
   EXPECT_EQ(encodeSrgb(std::nan("")), 0);
