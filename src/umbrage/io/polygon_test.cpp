@@ -3,6 +3,7 @@
 
 #include <map>
 #include <numeric>
+#include <random>
 
 #include "umbrage/io/reader/polygon.hpp"
 
@@ -15,7 +16,7 @@ std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance(const std::vector
   for (const mesh::Triangle& t : triangles)
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-      edges[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+      if (a != b) edges[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
     }
   std::erase_if(edges, [](const auto& edge) { return edge.second == 0; });
   return edges;
@@ -103,6 +104,17 @@ TEST(Polygon, farFromTheOriginNothingCancels) {
 TEST(Polygon, aCrossingRingIsStillWatertight) {
   const std::vector<Vec3> bow = {{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 2, 0}};
   EXPECT_EQ(balance(triangulate(bow, oneRing(4))).size(), 4U);
+}
+
+TEST(Polygon, aThousandHolesOnEachOtherEnd) {
+  std::mt19937 random(1);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 3000; ++i) points.emplace_back(random() % 1000000, random() % 1000000, 0);
+  Rings rings = {{0, 1, 2}};
+  for (std::uint32_t i = 3; i < 3000; i += 3) rings.push_back({i, i + 1, i + 2});
+  const auto triangles = triangulate(points, rings);
+  EXPECT_LE(triangles.size(), 3000U + 2 * 999 - 2);
+  EXPECT_EQ(balance(triangles).size(), 3000U);
 }
 
 // On a small lattice crossings, touching holes, spikes and corners on edges are common.

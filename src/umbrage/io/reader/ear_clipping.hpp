@@ -20,7 +20,7 @@ using PlanePolygon = std::vector<std::vector<PlaneCorner>>;
 [[nodiscard]] double doubleArea(const std::vector<PlaneCorner>& ring);
 
 /// Law 2 of triangulate for any rings at all, valid or not: where no corner is a proper ear the least bad one is cut.
-/// Time grows with the square of the corners, for rings that cross themselves with the cube.
+/// Time grows with the square of the corners.
 /// Source: Eberly, Triangulation by ear clipping, 2002.
 [[nodiscard]] std::vector<mesh::Triangle> clipEars(const PlanePolygon& polygon);
 
