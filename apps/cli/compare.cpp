@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "agreement.hpp"
 #include "commands.hpp"
-#include "drawing.hpp"
 #include "json.hpp"
 #include "outputs.hpp"
 #include "umbrage/png/png.hpp"
@@ -11,39 +11,23 @@
 namespace umbrage::cli {
 namespace {
 
-constexpr const char* kTruth = "ray_traced";
-
 struct CompareOptions {
   SceneOptions scene;
   ViewOptions view;
   std::string technique;
-  std::string against = kTruth;
+  std::string against = "ray_traced";
   std::string picture;
   bool json = false;
 };
 
 struct Comparison {
   std::string technique, against;  ///< names, "auto" resolved
-  int tolerance = 1;
-  std::size_t pixels = 0;
-  std::vector<shadow::MaskDifference> lights;
+  std::vector<Agreement> lights;
 
   [[nodiscard]] bool agree() const {
-    return std::all_of(lights.begin(), lights.end(), [](const auto& light) { return light.farFromEdge == 0; });
+    return std::all_of(lights.begin(), lights.end(), [](const auto& light) { return light.holds(); });
   }
 };
-
-// Edges are those of the truth where one of the two is it: a lone wrong pixel must not count as an edge of its own.
-Comparison compareMasks(const Drawing& a, const Drawing& b) {
-  const bool swapped = a.traits.name == kTruth;
-  const auto& masks = (swapped ? b : a).shading.masks;
-  const auto& truths = (swapped ? a : b).shading.masks;
-  Comparison result{a.traits.name, b.traits.name, std::max(a.traits.edgeTolerancePx, b.traits.edgeTolerancePx), 0, {}};
-  result.pixels = a.shading.surface.triangle.size();
-  for (std::size_t i = 0; i < masks.size(); ++i)
-    result.lights.push_back(shadow::compare(masks[i], truths[i], shadow::edgePixels(truths[i]), result.tolerance));
-  return result;
-}
 
 // The mask of --against, pale, with every pixel that differs for any light in red.
 image::RgbImage differencePicture(const Drawing& a, const Drawing& b) {
@@ -68,23 +52,23 @@ std::string comparisonText(const Comparison& comparison, const View& view) {
                                  view.camera.width, view.camera.height);
   for (std::size_t i = 0; i < comparison.lights.size(); ++i) {
     const auto& light = comparison.lights[i];
-    text += fmt::format("light {:<3} {:>8} differ of {} with a surface, {:>8} farther than {} px from an edge   {}\n",
-                        i, light.differing, light.covered, light.farFromEdge, comparison.tolerance,
-                        shortName(view.lights[i].name));
+    text += fmt::format("light {:<3} {} of {} pixels differ, {} of them away from every edge (allowed: {})   {}\n", i,
+                        light.differing, light.covered, light.astray, light.allowed(), shortName(view.lights[i].name));
   }
   return text + (comparison.agree() ? "they agree\n" : "they do not agree\n");
 }
 
-std::string comparisonJson(const Comparison& comparison) {
+std::string comparisonJson(const Comparison& comparison, const View& view) {
   Json json{{"technique", comparison.technique},
             {"against", comparison.against},
-            {"edge_tolerance_px", comparison.tolerance},
-            {"pixels", comparison.pixels},
+            {"size", {view.camera.width, view.camera.height}},
             {"agree", comparison.agree()}};
   json["lights"] = Json::array();
   for (const auto& light : comparison.lights)
-    json["lights"].push_back(
-        {{"differing", light.differing}, {"far_from_edge", light.farFromEdge}, {"covered", light.covered}});
+    json["lights"].push_back({{"differing", light.differing},
+                              {"far_from_edge", light.astray},
+                              {"allowed", light.allowed()},
+                              {"covered", light.covered}});
   return jsonText(json);
 }
 
@@ -106,13 +90,15 @@ Result<Outcome> run(const CompareOptions& options, const Console& console) {
   const auto view = makeView(std::move(*scene), options.view);
   if (!view) return tl::unexpected(view.error());
   const auto geometry = shadow::makeGeometry(view->scene);
-  const auto a = draw(options.technique, geometry, *view);
+  const auto a = draw(options.technique, geometry, *view, console);
   if (!a) return tl::unexpected(a.error());
-  const auto b = draw(options.against, geometry, *view);
+  const auto b = draw(options.against, geometry, *view, console);
   if (!b) return tl::unexpected(b.error());
   if (const auto written = writePicture(options.picture, *a, *b); !written) return tl::unexpected(written.error());
-  const Comparison comparison = compareMasks(*a, *b);
-  return Outcome{options.json ? comparisonJson(comparison) : comparisonText(comparison, *view),
+  auto lights = compareMasks(*a, *b, *view, geometry);
+  if (!lights) return tl::unexpected(lights.error());
+  const Comparison comparison{a->traits.name, b->traits.name, std::move(*lights)};
+  return Outcome{options.json ? comparisonJson(comparison, *view) : comparisonText(comparison, *view),
                  comparison.agree() ? 0 : 1};
 }
 

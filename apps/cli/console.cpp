@@ -3,10 +3,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
 #include <memory>
+#include <mutex>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -58,11 +61,26 @@ void Console::detail(std::string_view text) const {
 void Console::error(const Error& error) const { say(fmt::format("error: {}\n", printable(error.text()))); }
 
 ProgressSink Console::progress() const {
-  if (quiet_ || ::isatty(STDERR_FILENO) == 0) return {};
+  if (!showsProgress()) return {};
   return [line = std::make_shared<ProgressLine>()](double fraction, std::string_view what) {
     line->show(fraction, what);
     return true;
   };
+}
+
+bool Console::showsProgress() const { return !quiet_ && ::isatty(STDERR_FILENO) != 0; }
+
+Stage::Stage(const Console& console, std::string what) {
+  if (!console.showsProgress()) return;
+  teller_ = std::jthread([what = std::move(what)](const std::stop_token& end) {
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    std::condition_variable_any waiting;
+    int seconds = 0;
+    while (!waiting.wait_for(lock, end, std::chrono::seconds(1), [&] { return end.stop_requested(); }))
+      say(fmt::format("\r\033[K{} ... {} s", what, ++seconds));
+    if (seconds > 0) say("\r\033[K");
+  });
 }
 
 Result<void> print(std::string_view text) {

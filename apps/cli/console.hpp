@@ -3,6 +3,7 @@
 #include <chrono>
 #include <string>
 #include <string_view>
+#include <thread>
 
 #include "umbrage/base/error.hpp"
 #include "umbrage/base/progress.hpp"
@@ -30,10 +31,21 @@ class Console {
   /// Shows percentages on one line that is wiped at the end, on a terminal only and after a second only. Empty with
   /// --quiet.
   [[nodiscard]] ProgressSink progress() const;
+  /// Is there anybody to show progress to?
+  [[nodiscard]] bool showsProgress() const;
 
  private:
   bool quiet_ = false;
   bool verbose_ = false;
+};
+
+/// While it lives, standard error names what goes on, where it is a terminal and the work takes more than a second.
+class Stage {
+ public:
+  Stage(const Console& console, std::string what);
+
+ private:
+  std::jthread teller_;
 };
 
 /// Writes to standard output. A reader that has gone away is no error.

@@ -7,7 +7,8 @@
 namespace umbrage::cli {
 
 Result<Drawing> draw(const std::string& technique, const std::shared_ptr<const shadow::Geometry>& geometry,
-                     const View& view) {
+                     const View& view, const Console& console) {
+  const Stage stage(console, fmt::format("shading with {}", technique));
   Drawing drawing;
   Stopwatch watch;
   auto chosen = chooseTechnique(technique);

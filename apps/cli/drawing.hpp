@@ -18,7 +18,8 @@ struct Drawing {
 
 /// `technique`: a name or "auto".
 [[nodiscard]] Result<Drawing> draw(const std::string& technique,
-                                   const std::shared_ptr<const shadow::Geometry>& geometry, const View& view);
+                                   const std::shared_ptr<const shadow::Geometry>& geometry, const View& view,
+                                   const Console& console);
 
 /// "out.png" -> "out.png" for one light, "out-0.png", "out-1.png", ... for several.
 [[nodiscard]] std::vector<std::string> maskFiles(const std::string& path, std::size_t lights);

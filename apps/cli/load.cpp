@@ -63,7 +63,10 @@ Result<scene::Scene> loadScene(const SceneOptions& options) {
 }
 
 Result<scene::Scene> loadScene(const SceneOptions& options, const Console& console) {
-  auto scene = loadScene(options);
+  auto scene = [&] {
+    const Stage stage(console, fmt::format("reading {}", shortName(options.file)));
+    return loadScene(options);
+  }();
   if (!scene) return scene;
   for (const auto& warning : scene->warnings) console.warn(fmt::format("{}: {}", options.file, warning));
   return scene;

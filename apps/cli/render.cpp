@@ -92,7 +92,7 @@ Result<Outcome> run(const RenderOptions& options, const Console& console) {
   if (!view) return tl::unexpected(view.error());
   const auto geometry = shadow::makeGeometry(view->scene);
   const double geometryMs = watch.lap();
-  const auto drawing = draw(options.technique, geometry, *view);
+  const auto drawing = draw(options.technique, geometry, *view, console);
   if (!drawing) return tl::unexpected(drawing.error());
   watch.lap();
   const auto picture = makePicture(options, *view, geometry, *drawing);

@@ -47,8 +47,8 @@ Box3 framed(const scene::Scene& scene, bool onGround) {
 }
 
 Result<scene::Camera> makeCamera(const scene::Scene& scene, const ViewOptions& options) {
-  scene::Camera camera = scene::frameAll(framed(scene, options.ground.has_value()), scene.up, scene.northOffset, options.fov,
-                                         options.size.width, options.size.height);
+  scene::Camera camera = scene::frameAll(framed(scene, options.ground.has_value()), scene.up, scene.northOffset,
+                                         options.fov, options.size.width, options.size.height);
   if (options.eye) {
     camera.eye = *options.eye;
     camera.target = scene::bounds(scene).centre();

@@ -20,22 +20,6 @@ constexpr double kDepthError = 0x1p-15;
 constexpr double kSnap = 0x1p-7;  ///< pixels
 constexpr std::size_t kMostLookedAt = 256;  ///< a mask with more suspicious pixels than this is simply wrong
 
-// A view of the pixel (x, y) and its eight neighbours alone, or a little less: a narrow pinhole aimed at the pixel's centre.
-scene::Camera zoom(const scene::Camera& camera, int x, int y) {
-  const scene::PixelRays rays = scene::pixelRays(camera);
-  const auto through = [&](double dx, double dy) { return glm::normalize(rays.through(x + 0.5 + dx, y + 0.5 + dy)); };
-  const Vec3 centre = through(0, 0);
-  double half = 1.0;
-  for (const auto& [dx, dy] : {std::pair(1.5, 0.0), std::pair(-1.5, 0.0), std::pair(0.0, 1.5), std::pair(0.0, -1.5)})
-    half = std::min(half, glm::length(through(dx, dy) - centre));
-  scene::Camera out = camera;
-  out.target = out.eye + centre * glm::length(camera.target - camera.eye);
-  out.up = scene::basis(camera).up;
-  out.fovY = Angle::radians(2.0 * half);
-  out.width = out.height = 3 * kSamples;
-  return out;
-}
-
 double depthOfPlane(const scene::Surfaces& surfaces, std::uint32_t triangle, const Vec3& eye, const Vec3& ray) {
   const Vec3 normal = surfaces.normal(triangle);
   return glm::dot(surfaces.corner(triangle, 0) - eye, normal) / glm::dot(ray, normal);
@@ -84,7 +68,7 @@ Result<Judge> Judge::make(const shadow::TechniqueEntry& entry, std::shared_ptr<c
 }
 
 Result<bool> Judge::edgeNear(const Masks& m, int x, int y) const {
-  const scene::Camera fine = zoom(m.camera, x, y);
+  const scene::Camera fine = shadow::magnified(m.camera, x, y, kSamples);
   const auto truth = truth_->shade({fine, {&m.light, 1}});
   if (!truth) return tl::unexpected(truth.error());
   scene::Camera window = fine;

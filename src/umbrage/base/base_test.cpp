@@ -59,6 +59,11 @@ TEST(WriteFile, AFailedWriterLeavesTheOldFile) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
 }
 
+TEST(File, DevicesAreNotReplaced) {
+  EXPECT_EQ(writeFile("/dev/null", "x").error().code, ErrorCode::output);
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
 TEST(WriteFile, AMissingFolderIsAnErrorThatNamesTheFile) {
   const auto done = writeFile("/nonexistent/folder/a.txt", "x");
   ASSERT_FALSE(done);

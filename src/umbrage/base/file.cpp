@@ -81,6 +81,11 @@ Result<std::vector<std::byte>> readFile(const std::filesystem::path& path, std::
 
 Result<void> writeFileWith(const std::filesystem::path& path,
                            const std::function<Result<void>(const std::filesystem::path&)>& write) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  // A rename would replace a device or a pipe by a file.
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    return fail(ErrorCode::output, "is not a regular file and is left alone", path.string());
   const auto temporary = temporaryBeside(path);
   auto done = write(temporary);
   std::error_code failure;

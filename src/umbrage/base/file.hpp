@@ -16,6 +16,7 @@ namespace umbrage {
                                                       std::size_t maxBytes = std::size_t{1} << 31);
 
 /// Writes a file whole or not at all: into a temporary file beside it, flushed, then renamed over it.
+/// What is there and no regular file (a device, a pipe, a folder) is left alone.
 /// Errors: ErrorCode::output, with the path and the system's reason.
 [[nodiscard]] Result<void> writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 [[nodiscard]] Result<void> writeFile(const std::filesystem::path& path, std::string_view text);

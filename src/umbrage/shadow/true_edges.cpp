@@ -1,6 +1,8 @@
 #include "umbrage/shadow/true_edges.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace umbrage::shadow {
 namespace {
@@ -43,6 +45,21 @@ scene::Camera divided(scene::Camera camera, int factor) {
   camera.width *= factor;
   camera.height *= factor;
   return camera;
+}
+
+scene::Camera magnified(const scene::Camera& camera, int x, int y, int samples) {
+  const scene::PixelRays rays = scene::pixelRays(camera);
+  const auto through = [&](double dx, double dy) { return glm::normalize(rays.through(x + 0.5 + dx, y + 0.5 + dy)); };
+  const Vec3 centre = through(0, 0);
+  double half = 1.0;
+  for (const auto& [dx, dy] : {std::pair(1.5, 0.0), std::pair(-1.5, 0.0), std::pair(0.0, 1.5), std::pair(0.0, -1.5)})
+    half = std::min(half, glm::length(through(dx, dy) - centre));
+  scene::Camera out = camera;
+  out.target = out.eye + centre * glm::length(camera.target - camera.eye);
+  out.up = scene::basis(camera).up;
+  out.fovY = Angle::radians(2.0 * half);
+  out.width = out.height = 3 * samples;
+  return out;
 }
 
 image::GreyImage trueEdges(const scene::Surfaces& surfaces, const scene::Camera& camera, int factor, const SurfaceBuffer& seen,
