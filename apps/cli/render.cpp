@@ -62,13 +62,14 @@ Result<image::RgbImage> paint(const RenderOptions& options, const View& view, co
 
 /// The picture asked for; empty when none is. Masks and statistics stay those of one sample a pixel.
 Result<image::RgbImage> makePicture(const RenderOptions& options, const View& view,
-                                    const std::shared_ptr<const shadow::Geometry>& geometry, const Drawing& drawing) {
+                                    const std::shared_ptr<const shadow::Geometry>& geometry, const Drawing& drawing,
+                                    const Console& console) {
   if (options.picture.empty()) return image::RgbImage();
   if (options.view.antialias == 1) return paint(options, view, *geometry, drawing);
   View large = view;
   large.camera.width *= options.view.antialias;
   large.camera.height *= options.view.antialias;
-  const auto fine = draw(options.technique, geometry, large);
+  const auto fine = draw(options.technique, geometry, large, console);
   if (!fine) return tl::unexpected(fine.error());
   const auto picture = paint(options, large, *geometry, *fine);
   if (!picture) return picture;
@@ -95,7 +96,7 @@ Result<Outcome> run(const RenderOptions& options, const Console& console) {
   const auto drawing = draw(options.technique, geometry, *view, console);
   if (!drawing) return tl::unexpected(drawing.error());
   watch.lap();
-  const auto picture = makePicture(options, *view, geometry, *drawing);
+  const auto picture = makePicture(options, *view, geometry, *drawing, console);
   if (!picture) return tl::unexpected(picture.error());
   const Stats stats{*view,
                     *geometry,

@@ -19,15 +19,15 @@ constexpr double kShadowRoom = 0.4;
 // Surface and depth, masks and their pictures, with room for what a technique keeps beside them.
 constexpr double kBytesPerPixel = 24.0;
 constexpr double kBytesPerPixelAndLight = 4.0;
-constexpr double kMemory = 1.5 * 1024 * 1024 * 1024;
+constexpr double kMemory = 2.0 * 1024 * 1024 * 1024;
 
 Result<void> checkMemory(const Size& size, std::size_t lights) {
   const double bytes =
       double(size.width) * double(size.height) * (kBytesPerPixel + kBytesPerPixelAndLight * double(lights));
   if (bytes <= kMemory) return {};
   return fail(ErrorCode::usage,
-              fmt::format("--size: {}x{} with {} lights needs {:.1f} GiB of pictures; choose a smaller size or "
-                          "fewer lights",
+              fmt::format("--size: {} x {} samples with {} lights need {:.1f} GiB; choose a smaller --size, a smaller "
+                          "--antialias or fewer lights",
                           size.width, size.height, lights, bytes / (1024.0 * 1024.0 * 1024.0)));
 }
 

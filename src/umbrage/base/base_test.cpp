@@ -59,7 +59,7 @@ TEST(WriteFile, AFailedWriterLeavesTheOldFile) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
 }
 
-TEST(File, DevicesAreNotReplaced) {
+TEST(WriteFile, DevicesAreNotReplaced) {
   EXPECT_EQ(writeFile("/dev/null", "x").error().code, ErrorCode::output);
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
