@@ -16,7 +16,8 @@ struct BareRays::State {
   const View view;
   RTCDevice device = rtcNewDevice(nullptr);
   RTCScene tree = rtcNewScene(device);
-  std::vector<Vec3f> lift;  ///< per triangle: the offset of starts, towards the light's side; zero where it does not face the light
+  std::vector<Vec3f>
+      lift;  ///< per triangle: the offset of starts, towards the light's side; zero where it does not face the light
   std::vector<std::uint8_t> facing;
   Vec3f eye, corner, dx, dy;
   Vec4f light;
@@ -31,8 +32,8 @@ void addCasters(RTCDevice device, RTCScene tree, const scene::Surfaces& s) {
   const auto casting = static_cast<std::size_t>(std::count(s.casts.begin(), s.casts.end(), 1));
   auto* points = static_cast<float*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, s.positions.size()));
-  auto* corners =
-      static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, casting));
+  auto* corners = static_cast<std::uint32_t*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, casting));
   for (const Vec3f& p : s.positions)
     for (int k = 0; k < 3; ++k) *points++ = p[k];
   for (std::size_t t = 0; t < s.triangles.size(); ++t)
@@ -62,7 +63,8 @@ BareRays::BareRays(const View& view) : state_(new State{view, {}, {}, {}, {}, {}
     s.lift.push_back(Vec3f((towards ? offset : -offset) * n));
   }
   const scene::PixelRays rays = scene::pixelRays(view.camera);
-  s.eye = Vec3f(eye), s.corner = Vec3f(rays.corner), s.dx = Vec3f(rays.dx), s.dy = Vec3f(rays.dy), s.light = Vec4f(light);
+  s.eye = Vec3f(eye), s.corner = Vec3f(rays.corner), s.dx = Vec3f(rays.dx), s.dy = Vec3f(rays.dy),
+  s.light = Vec4f(light);
 }
 
 BareRays::~BareRays() {

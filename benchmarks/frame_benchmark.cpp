@@ -59,11 +59,15 @@ const bool kRegistered = [] {
     for (const auto& [name, make] : views) {
       const auto run = [entry, make = make](benchmark::State& state) { frame(state, entry, make); };
       benchmark::RegisterBenchmark(("frame/" + entry.traits.name + "/" + name).c_str(), run)
-          ->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(9);
+          ->Unit(benchmark::kMillisecond)
+          ->UseRealTime()
+          ->Iterations(9);
     }
     const auto run = [entry](benchmark::State& state) { prepare(state, entry, fromTheAir); };
     benchmark::RegisterBenchmark(("prepare/" + entry.traits.name + "/building").c_str(), run)
-        ->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(5);
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime()
+        ->Iterations(5);
   }
   return true;
 }();

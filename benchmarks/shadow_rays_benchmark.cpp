@@ -28,7 +28,8 @@ double shadowMilliseconds(const shadow::Shading& shading) {
 // Arguments: threads.
 void shadowRays(benchmark::State& state, View (*make)()) {
   const View view = make();
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(state.range(0)));
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(state.range(0)));
   auto technique = techniques::cpuTechniques().front().create();
   if (!technique || !(*technique)->prepare(view.geometry)) return state.SkipWithError("ray_traced cannot run here");
   const BareRays bare(view);
@@ -53,12 +54,18 @@ void shadowRays(benchmark::State& state, View (*make)()) {
   state.counters["traced_ms"] = median(traced);
   state.counters["bare_ms"] = median(plain);
   state.counters["ratio"] = median(ratio);
-  state.counters["lit_pixels"] = double(std::count(shading->masks[0].light.pixels().begin(), shading->masks[0].light.pixels().end(), 255));
+  state.counters["lit_pixels"] =
+      double(std::count(shading->masks[0].light.pixels().begin(), shading->masks[0].light.pixels().end(), 255));
   state.counters["differing_pixels"] = double(differing);
 }
 
-#define UMBRAGE_SHADOW_RAYS(view) \
-  BENCHMARK_CAPTURE(shadowRays, view, view)->Arg(1)->Arg(2)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(31)
+#define UMBRAGE_SHADOW_RAYS(view)           \
+  BENCHMARK_CAPTURE(shadowRays, view, view) \
+      ->Arg(1)                              \
+      ->Arg(2)                              \
+      ->UseManualTime()                     \
+      ->Unit(benchmark::kMillisecond)       \
+      ->Iterations(31)
 UMBRAGE_SHADOW_RAYS(fromTheAir);
 UMBRAGE_SHADOW_RAYS(fromTheStreet);
 UMBRAGE_SHADOW_RAYS(knot);

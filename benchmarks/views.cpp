@@ -60,14 +60,16 @@ mesh::Mesh knotMesh(std::uint32_t columns, std::uint32_t rows) {
 View fromTheAir() {
   const Building& b = building();
   const double r = b.box.radius();
-  return {"building_air", b.geometry, camera(b.box.centre() + r * Vec3(-0.9, -1.2, 0.8), b.box.centre()), afternoonSun()};
+  return {"building_air", b.geometry, camera(b.box.centre() + r * Vec3(-0.9, -1.2, 0.8), b.box.centre()),
+          afternoonSun()};
 }
 
 View fromTheStreet() {
   const Building& b = building();
   const double r = b.box.radius();
   const Vec3 foot(b.box.centre().x, b.box.centre().y, b.box.min.z);
-  return {"building_street", b.geometry, camera(foot + Vec3(-0.8 * r, -0.9 * r, 1.7), foot + Vec3(0, 0, 0.3 * r)), afternoonSun()};
+  return {"building_street", b.geometry, camera(foot + Vec3(-0.8 * r, -0.9 * r, 1.7), foot + Vec3(0, 0, 0.3 * r)),
+          afternoonSun()};
 }
 
 View knot() {
@@ -75,7 +77,9 @@ View knot() {
   s.materials.push_back({"grey", Vec3(0.8), 1.0});
   s.meshes.push_back(std::make_shared<mesh::Mesh>(knotMesh(1000, 35)));
   s.instances.push_back({"knot", 0});
-  return {"knot", shadow::makeGeometry(scene::withGround(std::move(s))), camera({2.6, -3.4, 4.2}, {0, 0, 1.8}),
+  return {"knot",
+          shadow::makeGeometry(scene::withGround(std::move(s))),
+          camera({2.6, -3.4, 4.2}, {0, 0, 1.8}),
           {scene::PointLight{{2, -4, 7}}, Vec3(1.0), 1.0, "lamp"}};
 }
 

@@ -73,7 +73,8 @@ void compareMasks(const scene::Scene& s, const scene::Light& light, const Vec3& 
 }
 
 // The point between `inside` and `outside` on the ground where shadow changes, by halving with single rays.
-double borderBetween(const trace::Occlusion& occlusion, const scene::Light& light, const Vec3& inside, const Vec3& outside) {
+double borderBetween(const trace::Occlusion& occlusion, const scene::Light& light, const Vec3& inside,
+                     const Vec3& outside) {
   const trace::LightRays rays(occlusion, light);
   const auto hidden = [&](double s) {
     trace::SurfacePoints8 points;
@@ -94,7 +95,9 @@ trace::Occlusion occlusionOf(const scene::Scene& s) {
   return std::move(*trace::Occlusion::build(std::make_shared<scene::Surfaces>(scene::flatten(s))));
 }
 
-scene::Scene onGround(std::vector<mesh::Mesh> meshes) { return scene::withGround(shapes::scene(std::move(meshes)), 0.0); }
+scene::Scene onGround(std::vector<mesh::Mesh> meshes) {
+  return scene::withGround(shapes::scene(std::move(meshes)), 0.0);
+}
 
 Expected insideRectangle(const Vec3& p, double x0, double x1, double y0, double y1) {
   const double d = std::min({p.x - x0, x1 - p.x, p.y - y0, y1 - p.y});
@@ -120,13 +123,16 @@ TEST(ClosedForm, ABoxOfHeightHCastsHOverTanElevation) {
 
 TEST(ClosedForm, TheEdgeOfAHalfPlaneFallsWhereTheRayThroughItDoes) {
   const double edge = 0.25, height = 3.0;
-  const auto s = onGround({shapes::quad({-900, -900, height}, {edge, -900, height}, {edge, 900, height}, {-900, 900, height})});
+  const auto s =
+      onGround({shapes::quad({-900, -900, height}, {edge, -900, height}, {edge, 900, height}, {-900, 900, height})});
   const Vec3 at(-2, 1, 9);
   const double border = at.x + (edge - at.x) * at.z / (at.z - height);
   const auto occlusion = occlusionOf(s);
   EXPECT_NEAR(borderBetween(occlusion, lamp(at), {border - 1, 5, 0}, {border + 1, 5, 0}), 1.0, 900e-6);
   // From below the sheet one would see nothing of the ground; from above, only what lies beyond its edge.
-  compareMasks(s, lamp(at), {border, 0, 0}, 8, [&](const Vec3& p) { return Expected{p.x < border, std::abs(p.x - border)}; });
+  compareMasks(s, lamp(at), {border, 0, 0}, 8, [&](const Vec3& p) {
+    return Expected{p.x < border, std::abs(p.x - border)};
+  });
 }
 
 TEST(ClosedForm, ASphereCastsAnEllipse) {
@@ -141,7 +147,8 @@ TEST(ClosedForm, ASphereCastsAnEllipse) {
     const scene::Light light = sunFrom(a, Angle());
     const Vec3 centre(kHeight / tan(a), 0, 0);
     const double along = kRadius / sin(a);
-    EXPECT_NEAR(borderBetween(occlusion, light, centre, centre + Vec3(2 * along, 0, 0)), along, sagitta / sin(a) + 1e-5);
+    EXPECT_NEAR(borderBetween(occlusion, light, centre, centre + Vec3(2 * along, 0, 0)), along,
+                sagitta / sin(a) + 1e-5);
     EXPECT_NEAR(borderBetween(occlusion, light, centre, centre + Vec3(0, 3 * kRadius, 0)), kRadius, sagitta + 1e-5);
     compareMasks(s, light, centre, 3 * along, [&](const Vec3& p) {
       const double r = std::hypot((p.x - centre.x) / along, (p.y - centre.y) / kRadius);
@@ -152,7 +159,8 @@ TEST(ClosedForm, ASphereCastsAnEllipse) {
 
 TEST(ClosedForm, ALampOverASquareEnlargesItBySimilarTriangles) {
   constexpr double kSide = 1.0, kHeight = 2.0, kLamp = 5.0;
-  const auto s = onGround({shapes::quad({-0.5, -0.5, kHeight}, {0.5, -0.5, kHeight}, {0.5, 0.5, kHeight}, {-0.5, 0.5, kHeight})});
+  const auto s =
+      onGround({shapes::quad({-0.5, -0.5, kHeight}, {0.5, -0.5, kHeight}, {0.5, 0.5, kHeight}, {-0.5, 0.5, kHeight})});
   const double half = 0.5 * kSide * kLamp / (kLamp - kHeight);
   const scene::Light light = lamp({0, 0, kLamp});
   const auto occlusion = occlusionOf(s);

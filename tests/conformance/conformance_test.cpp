@@ -11,7 +11,8 @@ namespace {
 
 class Conformance : public testing::TestWithParam<std::string> {};
 
-void judgeTechnique(const shadow::TechniqueEntry& entry, const Case& c, const std::shared_ptr<const shadow::Geometry>& geometry) {
+void judgeTechnique(const shadow::TechniqueEntry& entry, const Case& c,
+                    const std::shared_ptr<const shadow::Geometry>& geometry) {
   auto judge = Judge::make(entry, geometry);
   if (!judge) {
     ASSERT_EQ(judge.error().code, ErrorCode::device) << judge.error().text();
@@ -24,12 +25,12 @@ void judgeTechnique(const shadow::TechniqueEntry& entry, const Case& c, const st
     ASSERT_TRUE(verdicts.has_value()) << entry.traits.name << ", " << view.name << ": " << verdicts.error().text();
     for (const Verdict& v : *verdicts) {
       tally.add(v);
-      EXPECT_EQ(v.difference.farFromEdge, 0u)
-          << v.technique << ", view " << v.view << ", light " << v.light << ": " << v.difference.differing << " pixels differ";
+      EXPECT_EQ(v.difference.farFromEdge, 0u) << v.technique << ", view " << v.view << ", light " << v.light << ": "
+                                              << v.difference.differing << " pixels differ";
     }
   }
-  std::printf("%-12s %-24s %4zu masks %8zu covered %6zu differing %4zu far\n", entry.traits.name.c_str(), c.name.c_str(),
-              tally.masks, tally.covered, tally.differing, tally.far);
+  std::printf("%-12s %-24s %4zu masks %8zu covered %6zu differing %4zu far\n", entry.traits.name.c_str(),
+              c.name.c_str(), tally.masks, tally.covered, tally.differing, tally.far);
 }
 
 TEST_P(Conformance, NoPixelDiffersFarFromATrueEdge) {
@@ -61,8 +62,9 @@ TEST_P(Conformance, TheTruthAgreesWithBruteForce) {
         clear += pixel.clear;
         const bool same = (mask.covered(x, y) != 0) == pixel.covered && (mask.light(x, y) == 255) == pixel.lit;
         if (!pixel.clear || same || oracle::onEdge(bruteForce, view.camera, light.light, x, y, pixel)) continue;
-        ADD_FAILURE() << "view " << view.name << ", light " << light.name << ", pixel " << x << ' ' << y << ": should be "
-                      << (pixel.covered ? "" : "un") << "covered and " << (pixel.lit ? "lit" : "dark");
+        ADD_FAILURE() << "view " << view.name << ", light " << light.name << ", pixel " << x << ' ' << y
+                      << ": should be " << (pixel.covered ? "" : "un") << "covered and "
+                      << (pixel.lit ? "lit" : "dark");
       }
     }
   }

@@ -32,8 +32,8 @@ int main(int argc, char** argv) {
         const auto a = (*technique)->shade({view.camera, {&light.light, 1}});
         const auto b = (*truth)->shade({view.camera, {&light.light, 1}});
         const Vec4 l = scene::homogeneous(light.light, geometry->surfaces.origin);
-        std::printf("%s: eye %.9g %.9g %.9g light %.9g %.9g %.9g %g\n", entry.traits.name.c_str(), view.camera.eye.x, view.camera.eye.y,
-                    view.camera.eye.z, l.x, l.y, l.z, l.w);
+        std::printf("%s: eye %.9g %.9g %.9g light %.9g %.9g %.9g %g\n", entry.traits.name.c_str(), view.camera.eye.x,
+                    view.camera.eye.y, view.camera.eye.z, l.x, l.y, l.z, l.w);
         int shown = 0;
         for (int y = 0; y < view.camera.height; ++y)
           for (int x = 0; x < view.camera.width; ++x) {
@@ -41,9 +41,12 @@ int main(int argc, char** argv) {
             if (m.light(x, y) == t.light(x, y) && m.covered(x, y) == t.covered(x, y)) continue;
             if (++shown > 20) continue;
             const auto p = bruteForce.look(view.camera, light.light, x + 0.5, y + 0.5);
-            std::printf("  %d %d: %d/%d tri %d depth %.6g; truth %d/%d tri %d depth %.6g; brute force %d/%d%s point %.9g %.9g %.9g\n", x, y, m.light(x, y),
-                        m.covered(x, y), int(a->surface.triangle(x, y)), a->surface.depth(x, y), t.light(x, y), t.covered(x, y), int(b->surface.triangle(x, y)), b->surface.depth(x, y), p.lit,
-                        p.covered, p.clear ? "" : " unclear", p.point.x, p.point.y, p.point.z);
+            std::printf(
+                "  %d %d: %d/%d tri %d depth %.6g; truth %d/%d tri %d depth %.6g; brute force %d/%d%s point %.9g %.9g "
+                "%.9g\n",
+                x, y, m.light(x, y), m.covered(x, y), int(a->surface.triangle(x, y)), a->surface.depth(x, y),
+                t.light(x, y), t.covered(x, y), int(b->surface.triangle(x, y)), b->surface.depth(x, y), p.lit,
+                p.covered, p.clear ? "" : " unclear", p.point.x, p.point.y, p.point.z);
           }
         std::printf("  %d pixels\n", shown);
       }

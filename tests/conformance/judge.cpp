@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kSamples = 32;  ///< a pixel, along each axis
 constexpr double kDepthError = 0x1p-15;
-constexpr double kSnap = 0x1p-7;  ///< pixels
+constexpr double kSnap = 0x1p-7;            ///< pixels
 constexpr std::size_t kMostLookedAt = 256;  ///< a mask with more suspicious pixels than this is simply wrong
 
 double depthOfPlane(const scene::Surfaces& surfaces, std::uint32_t triangle, const Vec3& eye, const Vec3& ray) {
@@ -125,13 +125,15 @@ Result<std::vector<Verdict>> Judge::judge(const NamedView& view, const std::vect
   std::vector<Verdict> verdicts;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const auto edges = shadow::edgePixels(truth->masks[i]);
-    Verdict v{name_, "", view.name, named[i].name, shadow::compare(shading->masks[i], truth->masks[i], edges, tolerance_)};
+    Verdict v{name_, "", view.name, named[i].name,
+              shadow::compare(shading->masks[i], truth->masks[i], edges, tolerance_)};
     const Masks masks{view.camera, lights[i], shading->surface, shading->masks[i]};
     for (const auto& [x, y] : farPixels(shading->masks[i], truth->masks[i], edges, tolerance_)) {
       if (v.difference.farFromEdge > kMostLookedAt) break;
       const auto edge = edgeNear(masks, x, y);
       if (!edge) return tl::unexpected(edge.error());
-      if (*edge || seesHairline(masks, truth->surface, x, y) || exactForDisplacedPoint(masks, truth->surface, x, y)) --v.difference.farFromEdge;
+      if (*edge || seesHairline(masks, truth->surface, x, y) || exactForDisplacedPoint(masks, truth->surface, x, y))
+        --v.difference.farFromEdge;
     }
     verdicts.push_back(std::move(v));
   }

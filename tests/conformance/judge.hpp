@@ -32,7 +32,8 @@ struct Tally {
 class Judge {
  public:
   /// Errors: the technique's own, when it cannot run here.
-  [[nodiscard]] static Result<Judge> make(const shadow::TechniqueEntry& entry, std::shared_ptr<const shadow::Geometry> geometry);
+  [[nodiscard]] static Result<Judge> make(const shadow::TechniqueEntry& entry,
+                                          std::shared_ptr<const shadow::Geometry> geometry);
 
   /// One verdict a light. A differing pixel is far unless one of these holds:
   /// 1. a true edge (shadow::trueEdges) touches the pixel or one of its eight neighbours, as pixel centres and then 32 x 32 samples

@@ -14,7 +14,9 @@ class Spoilt final : public shadow::Technique {
  public:
   Spoilt(std::unique_ptr<shadow::Technique> truth, Spoil spoil) : truth_(std::move(truth)), spoil_(std::move(spoil)) {}
   const shadow::Traits& traits() const override { return truth_->traits(); }
-  Result<void> prepare(std::shared_ptr<const shadow::Geometry> geometry) override { return truth_->prepare(std::move(geometry)); }
+  Result<void> prepare(std::shared_ptr<const shadow::Geometry> geometry) override {
+    return truth_->prepare(std::move(geometry));
+  }
   Result<shadow::Shading> shade(const shadow::Frame& frame) override {
     auto shading = truth_->shade(frame);
     if (shading) spoil_(*shading);

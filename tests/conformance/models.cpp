@@ -13,7 +13,8 @@ constexpr int kWidth = 320, kHeight = 240;
 bool readable(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   if (!extension.empty()) extension.erase(0, 1);
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
   const auto known = io::readableExtensions();
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
@@ -35,7 +36,9 @@ Result<Case> modelCase(const std::filesystem::path& path) {
   const Box3 box = scene::bounds(*loaded);
   const scene::UpAxis axis = loaded->up;
   const Vec3 up = scene::upVector(axis), east = scene::eastVector(axis), north = scene::northVector(axis);
-  const auto at = [&](double x, double y, double z) { return box.centre() + box.radius() * (x * east + y * north + z * up); };
+  const auto at = [&](double x, double y, double z) {
+    return box.centre() + box.radius() * (x * east + y * north + z * up);
+  };
   Case c{path.filename().string(), scene::withGround(std::move(*loaded)), {}, {}};
   c.lights = {{"sun", {scene::DirectionalLight{at(0, 0, 0) - at(-0.5, -0.7, 0.6)}, Vec3(1.0), 1.0, ""}},
               {"lamp", {scene::PointLight{at(0.8, -0.9, 1.3)}, Vec3(1.0), 1.0, ""}}};

@@ -27,7 +27,8 @@ std::vector<std::filesystem::path> spread(const std::vector<std::filesystem::pat
   return some;
 }
 
-void judgeModel(const shadow::TechniqueEntry& entry, const Case& c, const std::shared_ptr<const shadow::Geometry>& geometry) {
+void judgeModel(const shadow::TechniqueEntry& entry, const Case& c,
+                const std::shared_ptr<const shadow::Geometry>& geometry) {
   if (entry.traits.needsClosed && geometry->casters.report.topology != mesh::Topology::closed) return;
   auto judge = Judge::make(entry, geometry);
   if (!judge) {
@@ -41,8 +42,8 @@ void judgeModel(const shadow::TechniqueEntry& entry, const Case& c, const std::s
     ASSERT_TRUE(verdicts.has_value()) << verdicts.error().text();
     for (const Verdict& v : *verdicts) tally.add(v);
   }
-  std::printf("%-12s %-32s %7zu triangles %8zu covered %5zu differing %3zu far\n", entry.traits.name.c_str(), c.name.c_str(),
-              geometry->surfaces.triangles.size(), tally.covered, tally.differing, tally.far);
+  std::printf("%-12s %-32s %7zu triangles %8zu covered %5zu differing %3zu far\n", entry.traits.name.c_str(),
+              c.name.c_str(), geometry->surfaces.triangles.size(), tally.covered, tally.differing, tally.far);
   EXPECT_LE(double(tally.far), kWorstShare * double(tally.covered)) << entry.traits.name << " on " << c.name;
 }
 

@@ -23,8 +23,8 @@ constexpr double kWorstShare = 1e-5;
 constexpr double kWorstShareInCode = 1e-6;
 
 // Every technique on one geometry; prints a line each. False when one failed.
-bool judgeAll(const std::string& name, const std::shared_ptr<const shadow::Geometry>& geometry, const std::vector<NamedView>& views,
-              const std::vector<NamedLight>& lights, double worstShare) {
+bool judgeAll(const std::string& name, const std::shared_ptr<const shadow::Geometry>& geometry,
+              const std::vector<NamedView>& views, const std::vector<NamedLight>& lights, double worstShare) {
   bool good = true;
   for (const shadow::TechniqueEntry& entry : allTechniques()) {
     if (entry.traits.name == allTechniques().front().traits.name) continue;
@@ -44,14 +44,15 @@ bool judgeAll(const std::string& name, const std::shared_ptr<const shadow::Geome
       }
       for (const Verdict& v : *verdicts) {
         tally.add(v);
-        if (v.difference.farFromEdge != 0) worst += " " + v.view + "/" + v.light + ":" + std::to_string(v.difference.farFromEdge);
+        if (v.difference.farFromEdge != 0)
+          worst += " " + v.view + "/" + v.light + ":" + std::to_string(v.difference.farFromEdge);
       }
     }
     const bool pass = double(tally.far) <= worstShare * double(tally.covered);
     good = good && pass;
     std::printf("%-36s %-8s %8zu triangles %4zu masks %9zu covered %6zu differing %5zu far %s%s\n", name.c_str(),
-                entry.traits.name.c_str(), geometry->surfaces.triangles.size(), tally.masks, tally.covered, tally.differing,
-                tally.far, pass ? "ok" : "FAILED", worst.substr(0, 200).c_str());
+                entry.traits.name.c_str(), geometry->surfaces.triangles.size(), tally.masks, tally.covered,
+                tally.differing, tally.far, pass ? "ok" : "FAILED", worst.substr(0, 200).c_str());
     std::fflush(stdout);
   }
   return good;

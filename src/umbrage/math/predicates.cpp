@@ -19,13 +19,13 @@ int lightSide(const Vec3& a, const Vec3& b, const Vec3& c, const Vec4& light) {
   const Vec3 ac = c - a;
   const Vec3 al = Vec3(light) - a * light.w;
   const Vec3 ab = b - a;
-  const double volume = (ac.y * al.z - ac.z * al.y) * ab.x + (ac.z * al.x - ac.x * al.z) * ab.y +
-                        (ac.x * al.y - ac.y * al.x) * ab.z;
+  const double volume =
+      (ac.y * al.z - ac.z * al.y) * ab.x + (ac.z * al.x - ac.x * al.z) * ab.y + (ac.x * al.y - ac.y * al.x) * ab.z;
   // Each of the six products below carries at most 7 rounding errors of 2^-53 by the time it stands in the sum. Without this bound
   // a light in a corner of a triangle would see noise instead of 0.
   const Vec3 c1 = glm::abs(ac), l1 = glm::abs(al), b1 = glm::abs(ab);
-  const double size = (c1.y * l1.z + c1.z * l1.y) * b1.x + (c1.z * l1.x + c1.x * l1.z) * b1.y +
-                      (c1.x * l1.y + c1.y * l1.x) * b1.z;
+  const double size =
+      (c1.y * l1.z + c1.z * l1.y) * b1.x + (c1.z * l1.x + c1.x * l1.z) * b1.y + (c1.x * l1.y + c1.y * l1.x) * b1.z;
   if (std::abs(volume) <= 0x1p-50 * size) return 0;
   return volume > 0.0 ? +1 : -1;
 }

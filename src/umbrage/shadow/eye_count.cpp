@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "umbrage/math/predicates.hpp"
+
 namespace umbrage::shadow {
 namespace {
 
@@ -67,6 +69,13 @@ bool isWithin(const Vec3& p, const Side& s, double threshold) {
          squaredToRay(p, s.b, s.db) <= limit;
 }
 
+// True when p lies on the triangle or nearly so: such an eye sees both into the shadow and past it, and the cap between is not drawn.
+bool isOnCaster(const Vec3& p, const CasterSet& casters, std::uint32_t triangle, double threshold) {
+  const Vec3 a = casters.corner(triangle, 0), b = casters.corner(triangle, 1), c = casters.corner(triangle, 2);
+  const Vec3 outside = glm::max(glm::min(a, glm::min(b, c)) - p, p - glm::max(a, glm::max(b, c)));
+  return std::max({outside.x, outside.y, outside.z}) <= threshold && distanceToTriangle(p, a, b, c) <= threshold;
+}
+
 // Off by irrational-looking fractions, so that an eye on a lattice leaves all its planes.
 constexpr std::array<std::array<double, 3>, 6> kDetours{{{0.5411, 0.3301, 0.7727},
                                                          {-0.6151, 0.7019, 0.3589},
@@ -92,13 +101,19 @@ EyeCount countAtEye(const CasterSet& casters, const Silhouette& silhouette, cons
   EyeCount plan;
   plan.threshold = thresholdFor(casters, silhouette.light, eye);
   plan.byZFail.assign(casters.componentCount, 0);
+  const auto giveUp = [&plan](std::uint32_t component) {
+    plan.byZFailCount += plan.byZFail[component] == 0;
+    plan.byZFail[component] = 1;
+  };
   for (const SilhouetteEdge& edge : silhouette.edges) {
     if (plan.byZFail[edge.component] != 0) continue;
     const Side side = sideOf(casters.position(edge.a), casters.position(edge.b), silhouette.light);
-    if (!isWithin(eye, side, plan.threshold)) continue;
-    plan.byZFail[edge.component] = 1;
-    ++plan.byZFailCount;
+    if (isWithin(eye, side, plan.threshold)) giveUp(edge.component);
   }
+  for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
+    if (silhouette.side[t] != 0 && plan.byZFail[casters.componentOf[t]] == 0 &&
+        isOnCaster(eye, casters, t, plan.threshold))
+      giveUp(casters.componentOf[t]);
   plan.count = certainCount(casters, silhouette, eye, plan);
   return plan;
 }

@@ -28,7 +28,8 @@ std::vector<std::uint8_t> visibleSideFacesLight(const scene::Surfaces& surfaces,
   return facing;
 }
 
-bool visibleSideFacesLight(const scene::Surfaces& surfaces, std::uint32_t triangle, const Vec4& eye, const Vec4& light) {
+bool visibleSideFacesLight(const scene::Surfaces& surfaces, std::uint32_t triangle, const Vec4& eye,
+                           const Vec4& light) {
   const Vec3 a = surfaces.corner(triangle, 0), b = surfaces.corner(triangle, 1), c = surfaces.corner(triangle, 2);
   return lightSide(a, b, c, eye) * lightSide(a, b, c, light) > 0 && !rakes(a, b, c, light);
 }

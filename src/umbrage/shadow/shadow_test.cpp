@@ -269,6 +269,14 @@ TEST(EyeCount, CountsTheWallsOfACubeBetweenEyeAndLight) {
   EXPECT_EQ(countAtEye(casters, s, {5, 5, -5}).count, 0);
 }
 
+TEST(EyeCount, LeavesACasterThatHoldsTheEyeToZFail) {
+  const CasterSet casters = cube();
+  const Silhouette s = findSilhouette(casters, {0.2, 0.3, 9, 1});
+  EXPECT_EQ(countAtEye(casters, s, {0.45, 0.35, 1.0}).byZFailCount, 1u);   // on the lit top
+  EXPECT_EQ(countAtEye(casters, s, {0.45, 0.35, 1.01}).byZFailCount, 0u);  // above it
+  EXPECT_EQ(countAtEye(casters, s, {0.45, 0.35, 0.99}).byZFailCount, 0u);  // inside
+}
+
 TEST(EyeCount, IsRightWhereTheSegmentRunsThroughInnerCornersAndEdges) {
   // A fan around the origin, seen along its axis: the segment from the eye to the light goes through the inner corner.
   std::vector<Vec3f> p{{0, 0, 0}};

@@ -62,8 +62,8 @@ scene::Camera magnified(const scene::Camera& camera, int x, int y, int samples) 
   return out;
 }
 
-image::GreyImage trueEdges(const scene::Surfaces& surfaces, const scene::Camera& camera, int factor, const SurfaceBuffer& seen,
-                           const LightMask& truth) {
+image::GreyImage trueEdges(const scene::Surfaces& surfaces, const scene::Camera& camera, int factor,
+                           const SurfaceBuffer& seen, const LightMask& truth) {
   const scene::Camera fine = divided(camera, factor);
   UMBRAGE_CHECK(truth.light.width() == fine.width && truth.light.height() == fine.height &&
                     seen.triangle.width() == fine.width && seen.triangle.height() == fine.height,

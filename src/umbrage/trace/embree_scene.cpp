@@ -41,8 +41,8 @@ void copyPositions(float* to, const std::vector<Vec3f>& positions) {
 GeometryHandle makeGeometry(RTCDevice device, const scene::Surfaces& surfaces, std::span<const std::uint32_t> chosen) {
   GeometryHandle geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
   if (geometry == nullptr) return nullptr;
-  auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                             3 * sizeof(float), surfaces.positions.size()));
+  auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), surfaces.positions.size()));
   auto* corners = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
       geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), chosen.size()));
   if (points == nullptr || corners == nullptr) return nullptr;
@@ -60,7 +60,8 @@ Result<DeviceHandle> openDevice() {
   return device;
 }
 
-Result<SceneHandle> buildTree(RTCDevice device, const scene::Surfaces& surfaces, std::span<const std::uint32_t> chosen) {
+Result<SceneHandle> buildTree(RTCDevice device, const scene::Surfaces& surfaces,
+                              std::span<const std::uint32_t> chosen) {
   SceneHandle tree(rtcNewScene(device));
   if (tree == nullptr) return failure(device);
   // Robust: no ray slips through an edge shared by two triangles. The filter looks at hits beside a ray's start.
@@ -74,7 +75,8 @@ Result<SceneHandle> buildTree(RTCDevice device, const scene::Surfaces& surfaces,
   // builders order them as the threads happen to run.
   tbb::task_arena alone(1);
   alone.execute([&] { rtcJoinCommitScene(tree.get()); });
-  if (rtcGetDeviceError(device) != RTC_ERROR_NONE) return fail(ErrorCode::device, "the ray tracer could not build its tree", "Embree");
+  if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
+    return fail(ErrorCode::device, "the ray tracer could not build its tree", "Embree");
   return tree;
 }
 

@@ -92,7 +92,8 @@ struct Start {
 // `height`: of the light above the surface (for a direction: the sine of its elevation).
 Start startOf(const Vec3& point, const Vec3& normal, const Vec3& towards, double length, double height, double lift,
               double precision, double resolution) {
-  if (lift * length <= precision * height) return {point + lift * normal, static_cast<float>(kNearResolutions * resolution)};
+  if (lift * length <= precision * height)
+    return {point + lift * normal, static_cast<float>(kNearResolutions * resolution)};
   return {point - (2.0 * resolution / length) * towards, std::numeric_limits<float>::infinity()};
 }
 
@@ -128,9 +129,11 @@ std::uint32_t LightRays::hidden(const SurfacePoints8& points) const {
     const double length = finite ? glm::length(towards) : 1.0;
     const float inverse = 1.0f / static_cast<float>(length);
     const double height = glm::dot(points.normal[k], towards);
-    const Start start = startOf(points.position[k], points.normal[k], towards, length, height,
-                                finite ? std::min(resolution, 0.5 * height) : resolution, points.precision[k], resolution);
-    const float end = finite ? 1.0f - float(kRelativeCut) - float(cut_) * inverse : std::numeric_limits<float>::infinity();
+    const Start start =
+        startOf(points.position[k], points.normal[k], towards, length, height,
+                finite ? std::min(resolution, 0.5 * height) : resolution, points.precision[k], resolution);
+    const float end =
+        finite ? 1.0f - float(kRelativeCut) - float(cut_) * inverse : std::numeric_limits<float>::infinity();
     if (!(end > 0.0f)) continue;
     const Vec3f from(start.from);
     const Vec3f along(finite ? Vec3(light_) - Vec3(from) : towards);

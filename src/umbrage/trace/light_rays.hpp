@@ -14,8 +14,8 @@ struct SurfacePoints8 {
   std::array<Vec3, 8> position;           ///< on the triangle's plane
   std::array<Vec3, 8> normal;             ///< unit, on the light's side
   std::array<std::uint32_t, 8> triangle;  ///< the one the point lies on; shadow::kNoTriangle: none
-  std::array<double, 8> precision;        ///< shadow borders may be displaced by this much along the surface, in scene units
-  std::uint32_t active = 0;               ///< bit k: point k is there
+  std::array<double, 8> precision;  ///< shadow borders may be displaced by this much along the surface, in scene units
+  std::uint32_t active = 0;         ///< bit k: point k is there
 };
 
 /// Shadow rays towards one light: whether the segment from a surface point to the light meets a caster.
@@ -41,7 +41,7 @@ class LightRays {
 
   const Occlusion& occlusion_;
   Vec4 light_;
-  double cut_ = 0.0;  ///< rays end this far from the light, plus a part of their length
+  double cut_ = 0.0;                      ///< rays end this far from the light, plus a part of their length
   std::vector<std::uint32_t> nearLight_;  ///< casters that the shortened rays may miss
 };
 

@@ -176,9 +176,9 @@ double refine(const Corners& triangle, const Vec3& from, const Vec3& direction, 
   const double slope = glm::dot(direction, normal);
   if (slope == 0.0) return estimate;
   const double square = glm::dot(direction, direction);
-  const auto [low, high] = std::minmax({glm::dot(triangle.a - from, direction) / square,
-                                        glm::dot(triangle.b - from, direction) / square,
-                                        glm::dot(triangle.c - from, direction) / square});
+  const auto [low, high] =
+      std::minmax({glm::dot(triangle.a - from, direction) / square, glm::dot(triangle.b - from, direction) / square,
+                   glm::dot(triangle.c - from, direction) / square});
   return std::clamp(glm::dot(triangle.a - from, normal) / slope, low, high);
 }
 

@@ -38,8 +38,8 @@ TEST(Segment, MeetsATriangleInsideAndOnItsBorder) {
   EXPECT_EQ(crossing({0, 0, 3}, {0, 0, -1}, kTriangle), 3.0);
   EXPECT_EQ(crossing({1, 1, -1}, {0, 0, 1}, kTriangle), 1.0);
   EXPECT_FALSE(crossing({1.001, 1, -1}, {0, 0, 1}, kTriangle));
-  EXPECT_FALSE(crossing({0.5, 0.5, 3}, {0, 0, 1}, kTriangle));   // behind
-  EXPECT_FALSE(crossing({0.5, 0.5, 0}, {1, 0, 0}, kTriangle));   // in the plane
+  EXPECT_FALSE(crossing({0.5, 0.5, 3}, {0, 0, 1}, kTriangle));  // behind
+  EXPECT_FALSE(crossing({0.5, 0.5, 0}, {1, 0, 0}, kTriangle));  // in the plane
 }
 
 TEST(Segment, HidesOnlyBetweenPointAndLight) {
@@ -62,8 +62,8 @@ TEST(Occlusion, SeesBothSidesAndBothKindsOfSurfaces) {
   const Occlusion o = make(scene::withGround(shapes::scene({shapes::box({-1, -1, 1}, {1, 1, 2})}), 0.0));
   ASSERT_TRUE(o.nearest({0, 0, 9}, {0, 0, -2}));
   EXPECT_EQ(o.nearest({0, 0, 9}, {0, 0, -2})->at, 3.5);
-  EXPECT_EQ(o.nearest({0.1, 0.2, 1.5}, {0, 0, 1})->at, 0.5);   // from inside
-  EXPECT_EQ(o.nearest({0.1, 0.2, 0.25}, {0, 0, -1})->at, 0.25);  // the ground
+  EXPECT_EQ(o.nearest({0.1, 0.2, 1.5}, {0, 0, 1})->at, 0.5);       // from inside
+  EXPECT_EQ(o.nearest({0.1, 0.2, 0.25}, {0, 0, -1})->at, 0.25);    // the ground
   EXPECT_EQ(o.meetsCaster(oneRay({0, 0, 9}, {0, 0, -1}, 6)), 0u);  // ends before
   EXPECT_EQ(o.meetsCaster(oneRay({0, 0, 9}, {0, 0, -1}, 8)), 8u);
   EXPECT_EQ(o.meetsCaster(oneRay({0, 0, 0.5}, {0, 0, -1}, 8)), 0u);  // the ground casts nothing
@@ -78,7 +78,9 @@ TEST(Occlusion, MeetsNoSurfaceWhosePlaneHoldsTheStart) {
 
 RC_GTEST_PROP(Occlusion, NearestAgreesWithEveryTriangleAsked, ()) {
   const auto seed = *rc::gen::inRange<std::uint64_t>(1, 1u << 30);
-  const Occlusion o = make(shapes::scene({shapes::soup(seed, 40, [](shapes::Random& r) { return r.point({Vec3(-2), Vec3(2)}); })}));
+  const Occlusion o = make(shapes::scene({shapes::soup(seed, 40, [](shapes::Random& r) {
+    return r.point({Vec3(-2), Vec3(2)});
+  })}));
   shapes::Random random(seed + 1);
   for (int i = 0; i < 50; ++i) {
     const Vec3 from = random.point({Vec3(-3), Vec3(3)}), direction = random.point({Vec3(-1), Vec3(1)});
@@ -113,8 +115,7 @@ TEST(Tiles, CoverEveryPixelOnce) {
   image::Image<int> count(101, 67);
   ASSERT_TRUE(forEachTile(101, 67, [&](const Tile& tile) {
     for (int y = tile.y0; y < tile.y1; y += 2)
-      for (int x = tile.x0; x < tile.x1; x += 4)
-        forEachLane(tile, x, y, [&](int, int px, int py) { ++count(px, py); });
+      for (int x = tile.x0; x < tile.x1; x += 4) forEachLane(tile, x, y, [&](int, int px, int py) { ++count(px, py); });
   }));
   EXPECT_TRUE(std::all_of(count.pixels().begin(), count.pixels().end(), [](int n) { return n == 1; }));
 }

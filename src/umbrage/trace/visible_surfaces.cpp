@@ -71,7 +71,8 @@ Result<shadow::SurfaceBuffer> visibleSurfaces(const Occlusion& occlusion, const 
   const Vec3 eye = camera.eye - surfaces.origin;
   const double near = 0x1p-18 * glm::length(eye) + 64.0 * occlusion.resolution();
   const View view{occlusion, eye, scene::pixelRays(camera), distanceToBox(eye, surfaces.bounds), near};
-  shadow::SurfaceBuffer out{{camera.width, camera.height, shadow::kNoTriangle}, {camera.width, camera.height, kInfinity}};
+  shadow::SurfaceBuffer out{{camera.width, camera.height, shadow::kNoTriangle},
+                            {camera.width, camera.height, kInfinity}};
   const auto done = forEachTile(camera.width, camera.height, [&](const Tile& tile) {
     for (int y = tile.y0; y < tile.y1; y += 2)
       for (int x = tile.x0; x < tile.x1; x += 4) castPacket(view, tile, x, y, out);

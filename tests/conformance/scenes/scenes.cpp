@@ -41,11 +41,15 @@ Scene colonnade() {
 }
 
 // Light and eye may be inside the innermost, between the shells, or outside.
-Scene nestedBoxes() { return grounded({box({-1, -1, 0}, {1, 1, 2}), box({-2, -2, -1}, {2, 2, 3}), box({-3, -3, -2}, {3, 3, 4})}); }
+Scene nestedBoxes() {
+  return grounded({box({-1, -1, 0}, {1, 1, 2}), box({-2, -2, -1}, {2, 2, 3}), box({-3, -3, -2}, {3, 3, 4})});
+}
 
 // --- open ----------------------------------------------------------------------------------------------------------------
 
-Scene singleQuad() { return scene::withGround(shapes::scene({quad({-1, -1, 1}, {1, -1, 1}, {1, 1, 1.5}, {-1, 1, 1.5})}), 0.0); }
+Scene singleQuad() {
+  return scene::withGround(shapes::scene({quad({-1, -1, 1}, {1, -1, 1}, {1, 1, 1.5}, {-1, 1, 1.5})}), 0.0);
+}
 Scene moebius() { return scene::withGround(shapes::scene({shapes::moebius({0, 0, 1.5}, 1.2, 0.8, 64, 4)}), 0.0); }
 
 Scene cup() {
@@ -76,11 +80,14 @@ Scene fins() {
   return scene::withGround(shapes::scene(parts), 0.0);
 }
 
-Scene cubesSharingAnEdge() { return grounded({box({-1, -1, 0}, {0, 0, 1}), box({0, 0, 0}, {1, 1, 1}), box({-1, 0, 1}, {0, 1, 2})}); }
+Scene cubesSharingAnEdge() {
+  return grounded({box({-1, -1, 0}, {0, 0, 1}), box({0, 0, 0}, {1, 1, 1}), box({-1, 0, 1}, {0, 1, 2})});
+}
 
 // Walls that meet in a T without a common corner.
 Scene tJunctions() {
-  return grounded({quad({-2, 0, 0}, {2, 0, 0}, {2, 0, 2}, {-2, 0, 2}), quad({0.3, 0, 0}, {0.3, 1.5, 0}, {0.3, 1.5, 1.3}, {0.3, 0, 1.3}),
+  return grounded({quad({-2, 0, 0}, {2, 0, 0}, {2, 0, 2}, {-2, 0, 2}),
+                   quad({0.3, 0, 0}, {0.3, 1.5, 0}, {0.3, 1.5, 1.3}, {0.3, 0, 1.3}),
                    quad({-1, 0, 0.7}, {1.5, 0, 0.7}, {1.5, -1, 0.9}, {-1, -1, 0.9})});
 }
 
@@ -102,7 +109,8 @@ Scene slivers() {
   std::vector<Mesh> parts;
   for (int i = 0; i < 24; ++i) {
     const double x = -2 + 0.17 * i, w = 1e-5 * (i + 1) * (i + 1);
-    parts.push_back(shapes::triangle({x, -2, 0.5 + 0.05 * i}, {x + w, 2, 1}, {x + 2 * w, -2 + 4e-5 * i, 0.5 + 0.05 * i}));
+    parts.push_back(
+        shapes::triangle({x, -2, 0.5 + 0.05 * i}, {x + w, 2, 1}, {x + 2 * w, -2 + 4e-5 * i, 0.5 + 0.05 * i}));
   }
   parts.push_back(box({-0.5, -0.5, 0}, {0.5, 0.5, 0.3}));
   return scene::withGround(shapes::scene(parts), 0.0);
@@ -111,13 +119,17 @@ Scene slivers() {
 // --- soups ---------------------------------------------------------------------------------------------------------------
 
 Scene soup() {
-  return scene::withGround(
-      shapes::scene({shapes::soup(7, 120, [](shapes::Random& r) { return r.point({{-2, -2, 0.2}, {2, 2, 3}}); })}), 0.0);
+  return scene::withGround(shapes::scene({shapes::soup(7, 120,
+                                                       [](shapes::Random& r) {
+                                                         return r.point({{-2, -2, 0.2}, {2, 2, 3}});
+                                                       })}),
+                           0.0);
 }
 std::function<Scene()> latticeSoup(std::uint64_t seed, int triangles, int reach) {
   return [=] {
     return scene::withGround(
-        shapes::scene({shapes::soup(seed, triangles, [reach](shapes::Random& r) { return r.latticePoint(-reach, reach); })}),
+        shapes::scene(
+            {shapes::soup(seed, triangles, [reach](shapes::Random& r) { return r.latticePoint(-reach, reach); })}),
         double(-reach));
   };
 }
@@ -127,7 +139,8 @@ std::function<Scene()> latticeSoup(std::uint64_t seed, int triangles, int reach)
 // Not grounded: the room's own floor is all there is. The light stands in it.
 Scene room() {
   return shapes::scene({box({-3, -3, 0}, {3, 3, 3}), box({-1, 1, 0}, {0, 2, 1}), box({1, -1, 0}, {1.5, 0, 1.8}),
-                        quad({-2.5, -1, 1}, {-1, -1, 1}, {-1, 0.5, 1}, {-2.5, 0.5, 1}), shapes::sphere({1.5, 1.5, 1.2}, 0.4, 20, 12)});
+                        quad({-2.5, -1, 1}, {-1, -1, 1}, {-1, 0.5, 1}, {-2.5, 0.5, 1}),
+                        shapes::sphere({1.5, 1.5, 1.2}, 0.4, 20, 12)});
 }
 
 Scene noCasters() {

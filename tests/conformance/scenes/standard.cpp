@@ -90,7 +90,8 @@ std::vector<NamedLight> standardLights(const scene::Scene& s) {
   if (caster == surfaces.casts.end()) return lights;
   const auto t = static_cast<std::uint32_t>(caster - surfaces.casts.begin());
   const Vec3 a = surfaces.origin + surfaces.corner(t, 0), b = surfaces.origin + surfaces.corner(t, 1);
-  const Vec3 n = surfaces.normal(t), middle = surfaces.origin + (surfaces.corner(t, 0) + surfaces.corner(t, 1) + surfaces.corner(t, 2)) / 3.0;
+  const Vec3 n = surfaces.normal(t),
+             middle = surfaces.origin + (surfaces.corner(t, 0) + surfaces.corner(t, 1) + surfaces.corner(t, 2)) / 3.0;
   const Vec3 unit = glm::length(n) > 0.0 ? glm::normalize(n) : Vec3(0, 0, 1);
   lights.push_back({"lamp_in_a_corner", pointAt(a)});
   lights.push_back({"lamp_in_a_plane", pointAt(b + 2.0 * (b - a))});
@@ -104,14 +105,15 @@ std::vector<NamedView> standardViews(const scene::Scene& s, const std::vector<Na
   const double r = box.radius();
   const Vec3 lamp = lightPoint(lights.front().light, box), sun = lightPoint(lights[1].light, box);
   const Vec3 behind = c + 0.9 * r * glm::normalize(c - lamp), behindSun = c + 0.7 * r * glm::normalize(c - sun);
-  std::vector<NamedView> views{{"outside", view(c + r * Vec3(-1.6, -1.9, 1.3), c)},
-                               {"above", view(c + r * Vec3(0.1, 0.2, 3.0), c)},
-                               {"grazing", view(c + Vec3(2.4 * r, 0.9 * r, 0.02 * r + box.min.z - c.z), c)},
-                               {"inside_the_box", view(c + r * Vec3(0.03, 0.05, 0.07), c + r * Vec3(1, 0.4, -0.2), 90)},
-                               {"in_the_lamps_shadow", view(behind, c + r * Vec3(1.2, 0.2, -1), 90)},
-                               {"from_its_shadow_to_the_lamp", view(behind, lamp, 90)},
-                               {"in_the_suns_shadow", view(behindSun, c, 90)},
-                               {"almost_touching", view(Vec3(c.x, box.min.y - 1e-3 * r, c.z), c + r * Vec3(0.9, 0.6, -0.7), 90)}};
+  std::vector<NamedView> views{
+      {"outside", view(c + r * Vec3(-1.6, -1.9, 1.3), c)},
+      {"above", view(c + r * Vec3(0.1, 0.2, 3.0), c)},
+      {"grazing", view(c + Vec3(2.4 * r, 0.9 * r, 0.02 * r + box.min.z - c.z), c)},
+      {"inside_the_box", view(c + r * Vec3(0.03, 0.05, 0.07), c + r * Vec3(1, 0.4, -0.2), 90)},
+      {"in_the_lamps_shadow", view(behind, c + r * Vec3(1.2, 0.2, -1), 90)},
+      {"from_its_shadow_to_the_lamp", view(behind, lamp, 90)},
+      {"in_the_suns_shadow", view(behindSun, c, 90)},
+      {"almost_touching", view(Vec3(c.x, box.min.y - 1e-3 * r, c.z), c + r * Vec3(0.9, 0.6, -0.7), 90)}};
   addSideViews(s, lights[0], box, views);
   addSideViews(s, lights[1], box, views);
   return views;

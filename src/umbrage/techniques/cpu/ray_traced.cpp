@@ -60,7 +60,8 @@ std::vector<std::uint8_t> facingOf(const scene::Surfaces& surfaces, const std::v
   for (std::uint32_t t = 0; t < planes.size(); ++t) {
     const Heights h = heightsOver(planes[t], eye, light);
     const bool sure = std::abs(h.eye) > sureOfEye && std::abs(h.light) > sureOfLight;
-    facing[t] = sure ? (h.eye > 0.0) == (h.light > 0.0) : shadow::visibleSideFacesLight(surfaces, t, Vec4(eye, 1.0), light);
+    facing[t] =
+        sure ? (h.eye > 0.0) == (h.light > 0.0) : shadow::visibleSideFacesLight(surfaces, t, Vec4(eye, 1.0), light);
   }
   return facing;
 }
@@ -189,7 +190,8 @@ class RayTraced final : public shadow::Technique {
 shadow::Traits rayTracedTraits() {
   shadow::Traits traits;
   traits.name = "ray_traced";
-  traits.summary = "One ray from every visible surface point to the light (Embree): the truth all others are judged by.";
+  traits.summary =
+      "One ray from every visible surface point to the light (Embree): the truth all others are judged by.";
   return traits;
 }
 

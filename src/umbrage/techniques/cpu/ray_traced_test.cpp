@@ -93,8 +93,9 @@ TEST(RayTraced, LightsAGroundWithoutCasters) {
 RC_GTEST_PROP(RayTraced, AgreesWithBruteForceOnLatticeSoups, ()) {
   const auto seed = *rc::gen::inRange<std::uint64_t>(1, 1u << 30);
   shapes::Random random(seed);
-  auto s = scene::withGround(
-      shapes::scene({shapes::soup(seed, *rc::gen::inRange(1, 24), [](shapes::Random& r) { return r.latticePoint(-3, 3); })}), -3.0);
+  auto s = scene::withGround(shapes::scene({shapes::soup(seed, *rc::gen::inRange(1, 24),
+                                                         [](shapes::Random& r) { return r.latticePoint(-3, 3); })}),
+                             -3.0);
   const Vec3 eye = random.latticePoint(-5, 5), target = random.latticePoint(-2, 2);
   const Vec3 way = random.latticePoint(-3, 3);
   std::vector<Light> lights{point(random.latticePoint(-5, 5)), point(random.point({Vec3(-4), Vec3(4)})),
@@ -106,7 +107,8 @@ RC_GTEST_PROP(RayTraced, AgreesWithBruteForceOnLatticeSoups, ()) {
 }
 
 TEST(RayTraced, AgreesWithBruteForceOnCurvedSelfShadowingMeshes) {
-  const auto s = scene::withGround(shapes::scene({shapes::knot({0, 0, 2}, 1.5, 0.3, 120, 16), shapes::sphere({3, 0, 1}, 0.8, 24, 16)}));
+  const auto s = scene::withGround(
+      shapes::scene({shapes::knot({0, 0, 2}, 1.5, 0.3, 120, 16), shapes::sphere({3, 0, 1}, 0.8, 24, 16)}));
   const std::vector<Light> lights{point({2, -4, 6}), sun({-1, 0.5, -0.3}), point({0, 0, 2})};
   const Camera camera = looking({6, -7, 4}, {1, 0, 1});
   const Agreement a = compareWithOracle(shoot(s, camera, lights), camera, lights);
@@ -136,8 +138,8 @@ TEST(RayTraced, IsAsRightFarFromTheOriginAndAtAnySize) {
 
 TEST(RayTraced, KnowsOnWhichSideOfASurfaceALightVeryNearItIs) {
   for (const double height : {1e-3, 1e-6, 1e-8, 1e-10}) {
-    const auto s = shapes::scene({shapes::quad({-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}), shapes::box({-4, -4, -3}, {4, 4, -2}),
-                                  shapes::box({1, 1, 0.5}, {1.5, 1.5, 1})});
+    const auto s = shapes::scene({shapes::quad({-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}),
+                                  shapes::box({-4, -4, -3}, {4, 4, -2}), shapes::box({1, 1, 0.5}, {1.5, 1.5, 1})});
     const std::vector<Light> lights{point({0.3, 0.3, height}), point({0.3, 0.3, -height})};
     const Camera above = looking({0, 0, 9}, {0.01, 0, 0}), beside = looking({6, 0, -1}, {0, 0, -2});
     for (const Camera& camera : {above, beside}) {
@@ -150,9 +152,7 @@ TEST(RayTraced, KnowsOnWhichSideOfASurfaceALightVeryNearItIs) {
 
 TEST(RayTraced, DoesNotShadowCoplanarOrCoincidentSurfaces) {
   // Twice the same quad in both windings, a larger one in the same plane with other corners, and tilted copies of all.
-  const auto layer = [](double k) {
-    return shapes::quad({-k, -k, 0}, {k, -1.3 * k, 0}, {1.1 * k, k, 0}, {-k, k, 0});
-  };
+  const auto layer = [](double k) { return shapes::quad({-k, -k, 0}, {k, -1.3 * k, 0}, {1.1 * k, k, 0}, {-k, k, 0}); };
   const Mat4 tilt = Mat4(Vec4(0.8, 0.6, 0, 0), Vec4(-0.36, 0.48, 0.8, 0), Vec4(0.48, -0.64, 0.6, 0), Vec4(17, 5, 3, 1));
   auto s = shapes::scene({layer(1), layer(1), layer(1.7), layer(0.37)}, tilt);
   const Vec3 centre = transformPoint(tilt, Vec3(0.0));
@@ -172,8 +172,9 @@ TEST(RayTraced, DoesNotShadowCoplanarOrCoincidentSurfaces) {
 }
 
 TEST(RayTraced, IsTheSameInAnyNumberOfThreads) {
-  const auto s = scene::withGround(shapes::scene({shapes::knot({0, 0, 2}, 1.5, 0.3, 120, 16),
-                                                  shapes::soup(3, 200, [](shapes::Random& r) { return r.latticePoint(-2, 2); })}));
+  const auto s =
+      scene::withGround(shapes::scene({shapes::knot({0, 0, 2}, 1.5, 0.3, 120, 16),
+                                       shapes::soup(3, 200, [](shapes::Random& r) { return r.latticePoint(-2, 2); })}));
   const Camera camera = looking({6, -7, 4}, {0, 0, 1}, 320, 200);
   const std::vector<Light> lights{point({2, -4, 6})};
   const Shot many = shoot(s, camera, lights);

@@ -4,8 +4,6 @@
 
 namespace umbrage::techniques {
 
-std::vector<shadow::TechniqueEntry> cpuTechniques() {
-  return {{detail::rayTracedTraits(), detail::makeRayTraced}};
-}
+std::vector<shadow::TechniqueEntry> cpuTechniques() { return {{detail::rayTracedTraits(), detail::makeRayTraced}}; }
 
 }  // namespace umbrage::techniques

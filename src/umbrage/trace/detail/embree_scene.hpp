@@ -37,7 +37,7 @@ struct Trees {
   detail::DeviceHandle device;
   detail::SceneHandle casters, receivers;
   std::vector<std::uint32_t> casterTriangle, receiverTriangle;  ///< primitive -> triangle of Surfaces
-  bool wide = false;  ///< packets of 8 are native here
+  bool wide = false;                                            ///< packets of 8 are native here
 };
 
 namespace detail {
