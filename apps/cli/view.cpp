@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "options.hpp"
+#include "umbrage/scene/framing.hpp"
 #include "umbrage/study/sun_light.hpp"
 
 namespace umbrage::cli {
@@ -14,7 +15,7 @@ constexpr double kSunAzimuth = 160.0;
 constexpr double kSunElevation = 40.0;
 
 // How far around the scene the ground is framed too, in heights of the scene.
-constexpr double kShadowRoom = 0.4;
+constexpr double kShadowRoom = 0.2;
 
 // Surface and depth, masks and their pictures, with room for what a technique keeps beside them.
 constexpr double kBytesPerPixel = 24.0;
@@ -37,18 +38,20 @@ scene::Light defaultSun(scene::UpAxis up, Angle north) {
   return light;
 }
 
-// What is framed: the scene, on a ground with room for its shadows.
-Box3 framed(const scene::Scene& scene, bool onGround) {
-  Box3 box = scene::bounds(scene);
-  if (!onGround || box.empty()) return box;
+// Where the scene's shadows will fall on its ground, roughly: the foot of its bounds, with a margin.
+Box3 shadowFoot(const scene::Scene& scene, const std::optional<Ground>& ground) {
+  const Box3 box = scene::bounds(scene);
+  if (!ground || box.empty()) return {};
   const Vec3 up = scene::upVector(scene.up);
-  const Vec3 room = kShadowRoom * glm::dot(box.size(), up) * (Vec3(1.0) - up);
-  return {box.min - room, box.max + room};
+  const Vec3 across = Vec3(1.0) - up;
+  const Vec3 room = kShadowRoom * glm::dot(box.size(), up) * across;
+  const Vec3 foot = glm::dot(box.min, up) * up;
+  return {box.min * across + foot - room, box.max * across + foot + room};
 }
 
 Result<scene::Camera> makeCamera(const scene::Scene& scene, const ViewOptions& options) {
-  scene::Camera camera = scene::frameAll(framed(scene, options.ground.has_value()), scene.up, scene.northOffset,
-                                         options.fov, options.size.width, options.size.height);
+  scene::Camera camera =
+      scene::frameScene(scene, shadowFoot(scene, options.ground), options.fov, options.size.width, options.size.height);
   if (options.eye) {
     camera.eye = *options.eye;
     camera.target = scene::bounds(scene).centre();

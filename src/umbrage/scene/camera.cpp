@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "umbrage/base/check.hpp"
+#include "umbrage/scene/detail/fit.hpp"
 
 namespace umbrage::scene {
 namespace {
@@ -14,33 +14,6 @@ Vec3 leastAlignedAxis(const Vec3& v) {
   const Vec3 a = glm::abs(v);
   if (a.z <= a.x && a.z <= a.y) return {0, 0, 1};
   return a.y <= a.x ? Vec3(0, 1, 0) : Vec3(1, 0, 0);
-}
-
-// The part of the picture that frameAll lets a scene fill.
-constexpr double kFilled = 0.94;
-// How far out the camera stays, in radii of the scene.
-constexpr double kOutside = 1.05;
-
-/// How far from the centre of a box, and how far sideways, a camera must stand.
-struct Fit {
-  double distance = 0.0;
-  double shift = 0.0;
-};
-
-// A corner at (s, z) from the centre, sideways and forward, is seen from distance d with shift e when |s - e| <= (d + z) t.
-// Both senses bound e from above and below; the smallest d that leaves one e is where the two bounds meet.
-Fit fitBox(const Box3& box, const Vec3& sideways, const Vec3& forward, double tangent) {
-  if (box.empty()) return {};
-  double high = -std::numeric_limits<double>::infinity(), low = high;
-  const Vec3 half = 0.5 * box.size();
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 c = half * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-    const double s = glm::dot(c, sideways);
-    const double z = glm::dot(c, forward) * tangent;
-    high = std::max(high, s - z);
-    low = std::max(low, -s - z);
-  }
-  return {(high + low) / (2.0 * tangent), 0.5 * (high - low)};
 }
 
 }  // namespace
@@ -79,25 +52,11 @@ PixelRays pixelRays(const Camera& camera) {
 }
 
 Camera frameAll(const Box3& bounds, UpAxis up, Angle northOffset, Angle fovY, int width, int height) {
-  Camera camera;
-  camera.up = upVector(up);
-  camera.fovY = fovY;
-  camera.width = width;
-  camera.height = height;
-  const Vec3 southWest = glm::normalize(-northVector(up, northOffset) - eastVector(up, northOffset));
-  const Angle elevation = Angle::degrees(30);
-  const Vec3 backward = cos(elevation) * southWest + sin(elevation) * camera.up;
-  camera.target = bounds.centre();
-  camera.eye = camera.target + backward;
-  const CameraBasis b = basis(camera);
-  const double tangent = kFilled * tan(0.5 * fovY);
-  const auto upright = fitBox(bounds, b.up, b.forward, tangent);
-  const auto across = fitBox(bounds, b.right, b.forward, tangent * double(width) / double(height));
-  camera.target += upright.shift * b.up + across.shift * b.right;
-  // A wide view would let the camera touch the scene: it stays outside the sphere around it.
-  const double distance = std::max({upright.distance, across.distance, kOutside * bounds.radius(), 1e-6});
-  camera.eye = camera.target + distance * backward;
-  return camera;
+  return detail::frame(bounds, up, northOffset, fovY, width, height, [&](const auto& add) {
+    for (int i = 0; i < 8; ++i)
+      add(Vec3(i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y,
+               i & 4 ? bounds.max.z : bounds.min.z));
+  });
 }
 
 }  // namespace umbrage::scene

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "umbrage/scene/camera.hpp"
+#include "umbrage/scene/framing.hpp"
 #include "umbrage/scene/scene.hpp"
 #include "umbrage/scene/surfaces.hpp"
 
@@ -89,6 +90,35 @@ TEST(FrameAll, FillsThePicture) {
         EXPECT_NEAR(std::max(seen.max.x, seen.max.y), 0.94, 1e-9);
         EXPECT_NEAR(std::min(seen.min.x, seen.min.y), -0.94, 1e-9);
       }
+}
+
+// A tetrahedron fills less of the picture than its box does, so the camera comes nearer; what is framed too pushes it back.
+TEST(FrameScene, IsTighterThanTheBox) {
+  auto mesh = std::make_shared<mesh::Mesh>();
+  mesh->positions = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 9}};
+  mesh->triangles = {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}};
+  Scene s = oneTriangle();
+  s.meshes = {mesh};
+  s.instances[0].toWorld = glm::translate(Mat4(1.0), Vec3(100, 200, 0));
+  const auto distance = [](const Camera& c) { return glm::length(c.eye - c.target); };
+  const Camera tight = frameScene(s, {}, Angle::degrees(45), 640, 400);
+  EXPECT_LT(distance(tight), distance(frameAll(bounds(s), s.up, {}, Angle::degrees(45), 640, 400)));
+  const CameraBasis b = basis(tight);
+  double top = 0.0;
+  for (const Vec3& p : mesh->positions) {
+    const Vec3 v = p + Vec3(100, 200, 0) - tight.eye;
+    const double depth = glm::dot(v, b.forward);
+    EXPECT_LE(std::abs(glm::dot(v, b.right)), 0.9401 * 1.6 * tan(0.5 * tight.fovY) * depth);
+    top = std::max(top, std::abs(glm::dot(v, b.up)) / (tan(0.5 * tight.fovY) * depth));
+  }
+  EXPECT_NEAR(top, 0.94, 1e-9);
+  Box3 shadows;
+  shadows.add(Vec3(90, 190, 0));
+  shadows.add(Vec3(110, 210, 0));
+  EXPECT_GT(distance(frameScene(s, shadows, Angle::degrees(45), 640, 400)), distance(tight));
+  Scene nothing = oneTriangle();
+  nothing.instances.clear();
+  EXPECT_TRUE(std::isfinite(distance(frameScene(nothing, {}, Angle::degrees(45), 640, 400))));
 }
 
 TEST(FindFault, SeesWhatIsBroken) {
