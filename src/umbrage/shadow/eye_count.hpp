@@ -9,16 +9,17 @@ namespace umbrage::shadow {
 
 /// What z-pass needs to be right for an eye inside shadow volumes.
 struct EyeCount {
-  int count =
-      0;  ///< caster surfaces between the eye and the light, without those of `byZFail`; the stencil starts from it
-  std::vector<std::uint8_t>
-      byZFail;  ///< per component: 1 when the eye is too close to one of its side quads or faces for z-pass
+  /// Caster surfaces between the eye and the light, without those of `byZFail`; the stencil starts from it.
+  int count = 0;
+  /// Per component: 1 when the eye is too close to one of its side quads or faces for z-pass.
+  std::vector<std::uint8_t> byZFail;
   std::size_t byZFailCount = 0;
   double threshold = 0.0;  ///< the distance below which a component goes to byZFail, in scene units
 };
 
 /// With depth clamp a perspective view clips volumes only at the eye itself, so what z-pass misses is one number for the whole
-/// screen. It goes wrong only when the eye (nearly) touches a side quad or a caster itself; such components are told to be drawn by z-fail.
+/// screen. It goes wrong only when the eye (nearly) touches a side quad or a caster itself; such components are told to be
+/// drawn by z-fail.
 /// `eye` is relative to the origin of the casters. CAVEAT: for perspective cameras only.
 /// Source: verified in this project against ray tracing; compare Usta, Scandolo, Billeter, Eisemann et al., 2019.
 [[nodiscard]] EyeCount countAtEye(const CasterSet& casters, const Silhouette& silhouette, const Vec3& eye);
