@@ -174,6 +174,24 @@ TEST_F(Behaviour, VolumesAreShownWhereThereAreGraphics) {
   EXPECT_FALSE(read("plain.png") == read("shown.png"));
 }
 
+TEST_F(Behaviour, WithoutGraphicsOnlyWhatNeedsThemFails) {
+  const auto box = writeBox();
+  RunOptions options;
+  options.hideGraphics = true;
+  const std::vector<std::string> words{"render", box, "--ground", "-o", file("out.png"), "--size", "32x32"};
+  for (const auto& more : std::vector<std::vector<std::string>>{{"--technique", "zfail"}, {"--show", "volumes"}}) {
+    auto asked = words;
+    asked.insert(asked.end(), more.begin(), more.end());
+    const Ran ran = umbrage(asked, options);
+    EXPECT_EQ(ran.code, 4) << more[0] << ran.err;
+    EXPECT_THAT(ran.err, StartsWith("error: "));
+    EXPECT_FALSE(exists("out.png"));
+  }
+  const Ran automatic = umbrage(words, options);
+  EXPECT_EQ(automatic.code, 0) << automatic.err;
+  EXPECT_EQ(umbrage({"techniques"}, options).code, 0);
+}
+
 TEST_F(Behaviour, SamplesAreListedAndWritten) {
   const Ran list = umbrage({"sample", "--list"});
   ASSERT_EQ(list.code, 0);

@@ -33,6 +33,8 @@ struct Pipe {
 [[noreturn]] void becomeProgram(const std::vector<std::string>& words, const RunOptions& options, int out, int err) {
   if (!options.workingFolder.empty() && ::chdir(options.workingFolder.c_str()) != 0) ::_exit(127);
   if (!options.outputTo.empty()) out = ::open(options.outputTo.c_str(), O_WRONLY | O_CLOEXEC);
+  // glvnd, which is Debian's libEGL, then finds no vendor.
+  if (options.hideGraphics) ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent", 1);
   ::dup2(out, STDOUT_FILENO);
   ::dup2(err, STDERR_FILENO);
   // A test runner may have been started with these ignored.

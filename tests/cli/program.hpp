@@ -20,6 +20,7 @@ struct Ran {
 struct RunOptions {
   std::chrono::milliseconds limit{60000};
   std::filesystem::path workingFolder;
+  bool hideGraphics = false;                    ///< as on a machine without any OpenGL driver
   bool closeOutput = false;                     ///< nobody reads its standard output
   std::string outputTo;                         ///< standard output goes to this file instead
   std::chrono::milliseconds interruptAfter{0};  ///< SIGINT after so long; 0: never
