@@ -40,7 +40,8 @@ struct ViewOptions {
   std::optional<Ground> ground;
   std::vector<scene::Light> lights;
   double ambient = 0.25;
-  int antialias = 1;  ///< the picture is drawn this many times as wide and high, and averaged
+  double shadowRoom = 0.2;  ///< how far around the scene its ground is framed too, in heights of the scene
+  int antialias = 1;        ///< the picture is drawn this many times as wide and high, and averaged
 };
 void addCameraOptions(CLI::App& app, ViewOptions& options);
 void addLightOptions(CLI::App& app, ViewOptions& options);

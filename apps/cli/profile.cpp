@@ -85,6 +85,7 @@ Result<Outcome> run(const ProfileOptions& options, const Console& console) {
 Run addProfile(CLI::App& app) {
   const auto options = std::make_shared<ProfileOptions>();
   options->view.ground = Ground{};
+  options->view.shadowRoom = 0.6;  // a day's shadows go to all sides
   const Manner time{.group = "Place and time", .required = true};
   addSceneOptions(app, options->scene);
   addWord(app, "-o,--output", "OUT.png",

@@ -14,9 +14,6 @@ namespace {
 constexpr double kSunAzimuth = 160.0;
 constexpr double kSunElevation = 40.0;
 
-// How far around the scene the ground is framed too, in heights of the scene.
-constexpr double kShadowRoom = 0.2;
-
 // Surface and depth, masks and their pictures, with room for what a technique keeps beside them.
 constexpr double kBytesPerPixel = 24.0;
 constexpr double kBytesPerPixelAndLight = 4.0;
@@ -39,19 +36,19 @@ scene::Light defaultSun(scene::UpAxis up, Angle north) {
 }
 
 // Where the scene's shadows will fall on its ground, roughly: the foot of its bounds, with a margin.
-Box3 shadowFoot(const scene::Scene& scene, const std::optional<Ground>& ground) {
+Box3 shadowFoot(const scene::Scene& scene, const ViewOptions& options) {
   const Box3 box = scene::bounds(scene);
-  if (!ground || box.empty()) return {};
+  if (!options.ground || box.empty()) return {};
   const Vec3 up = scene::upVector(scene.up);
   const Vec3 across = Vec3(1.0) - up;
-  const Vec3 room = kShadowRoom * glm::dot(box.size(), up) * across;
+  const Vec3 room = options.shadowRoom * glm::dot(box.size(), up) * across;
   const Vec3 foot = glm::dot(box.min, up) * up;
   return {box.min * across + foot - room, box.max * across + foot + room};
 }
 
 Result<scene::Camera> makeCamera(const scene::Scene& scene, const ViewOptions& options) {
   scene::Camera camera =
-      scene::frameScene(scene, shadowFoot(scene, options.ground), options.fov, options.size.width, options.size.height);
+      scene::frameScene(scene, shadowFoot(scene, options), options.fov, options.size.width, options.size.height);
   if (options.eye) {
     camera.eye = *options.eye;
     camera.target = scene::bounds(scene).centre();
