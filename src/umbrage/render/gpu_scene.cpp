@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "umbrage/gl/quirks.hpp"
+#include "umbrage/math/predicates.hpp"
 
 namespace umbrage::render {
 namespace {
@@ -34,10 +35,23 @@ Result<GpuScene> GpuScene::make(const scene::Surfaces& surfaces) {
   const std::vector<Vec4f> shading = shadingOf(surfaces);
   for (const auto& done : {setStorage(scene.positions_, std::as_bytes(std::span(surfaces.positions)), "positions"),
                            setStorage(scene.corners_, std::as_bytes(std::span(surfaces.triangles)), "triangles"),
-                           setStorage(scene.triangles_, std::as_bytes(std::span(shading)), "triangles")})
+                           setStorage(scene.triangles_, std::as_bytes(std::span(shading)), "triangles"),
+                           scene.drawn_.setAll(surfaces.triangles)})
     if (!done) return tl::unexpected(done.error());
-  scene.vertices_ = gl::VertexArray(scene.corners_);
+  scene.vertices_ = gl::VertexArray(scene.drawn_);
   return scene;
+}
+
+Result<void> GpuScene::leaveOutEdgeOn(const scene::Surfaces& surfaces, const Vec3& eye) {
+  std::vector<std::uint32_t> triangles;
+  for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t)
+    if (lightSide(surfaces.corner(t, 0), surfaces.corner(t, 1), surfaces.corner(t, 2), Vec4(eye, 1.0)) == 0)
+      triangles.push_back(t);
+  if (triangles.empty() && complete_) return {};
+  std::vector<mesh::Triangle> drawn = surfaces.triangles;
+  for (const std::uint32_t t : triangles) drawn[t] = {drawn[t][0], drawn[t][0], drawn[t][0]};  // covers no pixel
+  complete_ = triangles.empty();
+  return drawn_.setAll(drawn);
 }
 
 }  // namespace umbrage::render

@@ -139,6 +139,8 @@ Result<image::RgbaImage> drawLayer(const std::vector<Mark>& marks, const View& v
   if (auto done = frame->needPicture(); !done) return tl::unexpected(done.error());
   auto gpuScene = GpuScene::make(geometry.surfaces);
   if (!gpuScene) return tl::unexpected(gpuScene.error());
+  if (auto done = gpuScene->leaveOutEdgeOn(geometry.surfaces, view.eye - geometry.surfaces.origin); !done)
+    return tl::unexpected(done.error());
   gl::Buffer viewData, markData;
   if (auto done = viewData.setOne(viewBlock(view, geometry.surfaces.origin, Vec4(0.0))); !done)
     return tl::unexpected(done.error());

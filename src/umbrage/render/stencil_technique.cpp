@@ -133,6 +133,9 @@ class StencilTechnique final : public GlTechnique {
     gl::PassState placement;
     placement.viewport = {0, 0, camera.width, camera.height};
     if (auto done = uploadFrame(view, camera, options); !done) return done;
+    const scene::Surfaces& surfaces = geometry_->surfaces;
+    if (auto done = own_->scene->leaveOutEdgeOn(surfaces, view.eye - surfaces.origin); !done) return done;
+    if (ended) ended("facing");
 
     std::vector<LightPlan> plans;
     while (own_->lights.size() < frame.lights.size()) own_->lights.emplace_back();

@@ -32,6 +32,12 @@ Light spotAt(const Vec3& p, const Vec3& target) {
 
 Camera view(const Vec3& eye, const Vec3& target, double fov = 60) { return looking(eye, target, fov, kWidth, kHeight); }
 
+// The scene's lowest level as all techniques see it: rounded to single precision once.
+double lowestLevel(const scene::Scene& s) {
+  const scene::Surfaces surfaces = scene::flatten(s);
+  return surfaces.bounds.empty() ? 0.0 : surfaces.origin.z + surfaces.bounds.min.z;
+}
+
 Vec3 lightPoint(const Light& light, const Box3& box) {
   const Vec4 l = scene::homogeneous(light, Vec3(0.0));
   return l.w != 0.0 ? Vec3(l) : box.centre() + 20.0 * box.radius() * Vec3(l);
@@ -113,6 +119,7 @@ std::vector<NamedView> standardViews(const scene::Scene& s, const std::vector<Na
       {"in_the_lamps_shadow", view(behind, c + r * Vec3(1.2, 0.2, -1), 90)},
       {"from_its_shadow_to_the_lamp", view(behind, lamp, 90)},
       {"in_the_suns_shadow", view(behindSun, c, 90)},
+      {"at_the_lowest_level", view({c.x - 1.7 * r, c.y - 1.9 * r, lowestLevel(s)}, c)},
       {"almost_touching", view(Vec3(c.x, box.min.y - 1e-3 * r, c.z), c + r * Vec3(0.9, 0.6, -0.7), 90)}};
   addSideViews(s, lights[0], box, views);
   addSideViews(s, lights[1], box, views);
