@@ -49,33 +49,39 @@ Heights heightsOver(const Plane& plane, const Vec3& eye, const Vec4& light) {
   return {glm::dot(plane.normal, eye) - plane.offset, glm::dot(plane.normal, Vec3(light)) - plane.offset * light.w};
 }
 
+/// A triangle as one eye and one light see it.
+struct LitFace {
+  Vec3 normal{0.0};  ///< of unit length, on the side of both; zero when they are on different sides or it is edge-on
+  double eyeHeight = 0.0;
+};
+
 // shadow::visibleSideFacesLight, told by the planes wherever they leave no doubt: it costs a fraction, and differs nowhere, since
 // it decides only heights of more than kSurely of the lengths they are computed from.
-std::vector<std::uint8_t> facingOf(const scene::Surfaces& surfaces, const std::vector<Plane>& planes, const Vec3& eye,
-                                   const Vec4& light) {
-  std::vector<std::uint8_t> facing(planes.size());
+std::vector<LitFace> litFaces(const scene::Surfaces& surfaces, const std::vector<Plane>& planes, const Vec3& eye,
+                              const Vec4& light) {
+  std::vector<LitFace> faces(planes.size());
   const double reach = glm::length(glm::max(glm::abs(surfaces.bounds.min), glm::abs(surfaces.bounds.max)));
   const double sureOfEye = kSurely * (glm::length(eye) + reach);
   const double sureOfLight = kSurely * (glm::length(Vec3(light)) + light.w * reach);
   for (std::uint32_t t = 0; t < planes.size(); ++t) {
     const Heights h = heightsOver(planes[t], eye, light);
     const bool sure = std::abs(h.eye) > sureOfEye && std::abs(h.light) > sureOfLight;
-    facing[t] =
+    const bool lit =
         sure ? (h.eye > 0.0) == (h.light > 0.0) : shadow::visibleSideFacesLight(surfaces, t, Vec4(eye, 1.0), light);
+    if (lit) faces[t] = {h.eye > 0.0 ? planes[t].normal : -planes[t].normal, std::abs(h.eye)};
   }
-  return facing;
+  return faces;
 }
 
 /// What the pixels of one light's mask are computed from.
 struct Shadowing {
   const scene::Surfaces& surfaces;
-  const std::vector<Plane>& planes;
   const shadow::SurfaceBuffer& seen;
   const trace::LightRays& lightRays;
   const scene::Light& light;
   bool spot;
-  std::vector<std::uint8_t> facing;  ///< per triangle
-  Vec3 eye;                          ///< relative to the origin of the surfaces
+  std::vector<LitFace> faces;  ///< per triangle
+  Vec3 eye;                    ///< relative to the origin of the surfaces
   scene::PixelRays rays;
   std::array<Vec3, 8> step;  ///< from the direction through a packet's first pixel to its others
   double precision;          ///< of shadow borders, at depth 1
@@ -92,17 +98,18 @@ void shadePacket(const Shadowing& s, const trace::Tile& tile, int x, int y, imag
   const Vec3 corner = s.rays.through(x + 0.5, y + 0.5);
   trace::forEachLane(tile, x, y, [&](int lane, int px, int py) {
     const std::uint32_t triangle = s.seen.triangle(px, py);
-    if (triangle == shadow::kNoTriangle || s.facing[triangle] == 0) return;
-    const Plane& plane = s.planes[triangle];
+    if (triangle == shadow::kNoTriangle) return;
+    const LitFace& face = s.faces[triangle];
+    if (face.normal == Vec3(0.0)) return;
     const Vec3 direction = corner + s.step[static_cast<std::size_t>(lane)];
-    // The point that the pixel's centre shows, in double precision. The visible side faces the light: towards the eye is towards it.
-    const double slope = glm::dot(plane.normal, direction), seen = s.seen.depth(px, py);
-    const double depth = std::abs(slope) < kEdgeOn ? seen : (plane.offset - glm::dot(plane.normal, s.eye)) / slope;
+    // The point that the pixel's centre shows, in double precision.
+    const double slope = glm::dot(face.normal, direction), seen = s.seen.depth(px, py);
+    const double depth = std::abs(slope) < kEdgeOn ? seen : -face.eyeHeight / slope;
     const Vec3 point = s.eye + depth * direction;
     if (s.spot && !scene::insideCone(s.light, point + s.surfaces.origin)) return;
     const auto k = static_cast<std::size_t>(lane);
     points.position[k] = point;
-    points.normal[k] = std::copysign(1.0, -slope) * plane.normal;  // the sense is random: a branch would cost more
+    points.normal[k] = face.normal;
     points.triangle[k] = triangle;
     points.precision[k] = s.precision * seen;
     points.active |= 1u << lane;
@@ -161,12 +168,11 @@ class RayTraced final : public shadow::Technique {
     const Vec3 eye = camera.eye - surfaces.origin;
     const scene::PixelRays rays = scene::pixelRays(camera);
     const Shadowing s{surfaces,
-                      planes_,
                       seen,
                       lightRays,
                       light,
                       std::holds_alternative<scene::SpotLight>(light.shape),
-                      facingOf(surfaces, planes_, eye, lightRays.light()),
+                      litFaces(surfaces, planes_, eye, lightRays.light()),
                       eye,
                       rays,
                       stepsOf(rays),
