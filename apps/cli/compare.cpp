@@ -53,7 +53,7 @@ std::string comparisonText(const Comparison& comparison, const View& view) {
   for (std::size_t i = 0; i < comparison.lights.size(); ++i) {
     const auto& light = comparison.lights[i];
     text += fmt::format("light {:<3} {} of {} pixels differ, {} of them away from every edge (allowed: {})   {}\n", i,
-                        light.differing, light.covered, light.astray, light.allowed(), shortName(view.lights[i].name));
+                        light.differing, view.camera.width * view.camera.height, light.astray, light.allowed(), shortName(view.lights[i].name));
   }
   return text + (comparison.agree() ? "they agree\n" : "they do not agree\n");
 }
@@ -77,14 +77,14 @@ Result<void> writePicture(const std::string& path, const Drawing& a, const Drawi
   return writeOutputs({{path, [&](const std::string& file) { return png::write(file, differencePicture(a, b)); }}});
 }
 
-Result<void> checkPicture(const std::string& path) {
+Result<void> checkPicture(const std::string& path, const std::string& scene) {
   if (path.empty()) return {};
   if (const auto png = checkExtension("-o", path, {".png"}); !png) return png;
-  return checkOutputs({path});
+  return checkOutputs({path}, scene);
 }
 
 Result<Outcome> run(const CompareOptions& options, const Console& console) {
-  if (const auto open = checkPicture(options.picture); !open) return tl::unexpected(open.error());
+  if (const auto open = checkPicture(options.picture, options.scene.file); !open) return tl::unexpected(open.error());
   auto scene = loadScene(options.scene, console);
   if (!scene) return tl::unexpected(scene.error());
   const auto view = makeView(std::move(*scene), options.view);

@@ -107,6 +107,8 @@ int main(const std::vector<std::string>& words) {
 int main(int count, char** words) {
   // A reader of our output that goes away is no reason to be killed; writes report it.
   std::signal(SIGPIPE, SIG_IGN);
+  // Neither is a limit on the size of files.
+  std::signal(SIGXFSZ, SIG_IGN);
   using namespace umbrage;
   try {
     return cli::main(std::vector<std::string>(words + 1, words + count));

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <system_error>
 
@@ -29,16 +30,30 @@ Result<void> checkWritable(const std::filesystem::path& path) {
   return {};
 }
 
+// The same file: by one name, or through links.
+bool sameFile(const std::string& a, const std::string& b) {
+  std::error_code absent;
+  return std::filesystem::equivalent(a, b, absent);
+}
+
 std::string absolute(const std::string& path) {
   std::error_code ignored;
   return std::filesystem::weakly_canonical(path, ignored).string();
 }
 
+// Letters count alike in either case.
+bool endsWith(const std::string& path, const std::string& extension) {
+  const auto alike = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+  return path.size() >= extension.size() &&
+         std::equal(extension.rbegin(), extension.rend(), path.rbegin(), alike);
+}
+
 }  // namespace
 
-Result<void> checkOutputs(const std::vector<std::string>& paths) {
+Result<void> checkOutputs(const std::vector<std::string>& paths, const std::string& input) {
   std::vector<std::string> seen;
   for (const auto& path : paths) {
+    if (sameFile(path, input)) return fail(ErrorCode::usage, "is the scene itself; give the output another name", path);
     if (const auto writable = checkWritable(path); !writable) return writable;
     const auto place = absolute(path);
     if (std::find(seen.begin(), seen.end(), place) != seen.end())
@@ -51,7 +66,7 @@ Result<void> checkOutputs(const std::vector<std::string>& paths) {
 Result<void> checkExtension(const std::string& option, const std::string& path,
                             const std::vector<std::string>& extensions) {
   const bool known = std::any_of(extensions.begin(), extensions.end(),
-                                 [&](const std::string& extension) { return path.ends_with(extension); });
+                                 [&](const std::string& extension) { return endsWith(path, extension); });
   if (known) return {};
   return fail(ErrorCode::usage, fmt::format("{}: '{}' must end in {}", option, path, fmt::join(extensions, " or ")));
 }

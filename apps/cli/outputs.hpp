@@ -15,8 +15,8 @@ struct Output {
 };
 
 /// Refuses outputs that cannot be written before any work is done: two of one name, a folder, a device, a file in a
-/// folder that is missing or closed to writing.
-[[nodiscard]] Result<void> checkOutputs(const std::vector<std::string>& paths);
+/// folder that is missing or closed to writing; and the file that is read, under whatever name.
+[[nodiscard]] Result<void> checkOutputs(const std::vector<std::string>& paths, const std::string& input = {});
 
 /// Refuses a name that does not end in one of `extensions`, for example {".png"}. Errors: usage, with the option's
 /// name.

@@ -32,10 +32,10 @@ Result<std::chrono::milliseconds> parseStep(const std::string& word) {
 }
 
 // The three figures: as shown by report::writeProfile.
-Result<void> checkFiles(const std::string& picture) {
+Result<void> checkFiles(const std::string& picture, const std::string& scene) {
   if (const auto png = checkExtension("-o", picture, {".png"}); !png) return png;
   const std::string stem = picture.substr(0, picture.size() - std::string_view(".png").size());
-  return checkOutputs({picture, stem + "-hours.png", stem + ".gif"});
+  return checkOutputs({picture, stem + "-hours.png", stem + ".gif"}, scene);
 }
 
 Result<study::Profile> study(const ProfileOptions& options, const View& view, const Console& console) {
@@ -60,7 +60,7 @@ Result<std::vector<std::filesystem::path>> write(const ProfileOptions& options, 
 }
 
 Result<Outcome> run(const ProfileOptions& options, const Console& console) {
-  if (const auto open = checkFiles(options.picture); !open) return tl::unexpected(open.error());
+  if (const auto open = checkFiles(options.picture, options.scene.file); !open) return tl::unexpected(open.error());
   // The study itself tells the casters apart, each pattern in its own colour.
   SceneOptions everything = options.scene;
   everything.casters.clear();

@@ -22,19 +22,24 @@ struct RenderOptions {
   std::vector<std::string> show;     ///< what is drawn over the picture
 };
 
+/// Every file that is to be written.
+std::vector<std::string> files(const RenderOptions& options, std::size_t lights) {
+  std::vector<std::string> paths;
+  if (!options.mask.empty()) paths = maskFiles(options.mask, lights);
+  for (const auto& path : {options.picture, options.stats})
+    if (!path.empty()) paths.push_back(path);
+  return paths;
+}
+
 Result<void> checkFiles(const RenderOptions& options) {
   if (options.picture.empty() && options.mask.empty() && options.stats.empty())
     return fail(ErrorCode::usage, "nothing to write: give -o OUT.png, --mask MASK.png or --stats STATS.json");
   if (!options.show.empty() && options.picture.empty())
     return fail(ErrorCode::usage, "--show draws on the picture: give -o OUT.png");
-  std::vector<std::string> paths;
-  for (const auto& [option, path] : {std::pair("-o", options.picture), std::pair("--mask", options.mask)}) {
-    if (path.empty()) continue;
-    if (const auto png = checkExtension(option, path, {".png"}); !png) return png;
-    paths.push_back(path);
-  }
-  if (!options.stats.empty()) paths.push_back(options.stats);
-  return checkOutputs(paths);
+  for (const auto& [option, path] : {std::pair("-o", options.picture), std::pair("--mask", options.mask)})
+    if (!path.empty())
+      if (const auto png = checkExtension(option, path, {".png"}); !png) return png;
+  return checkOutputs(files(options, 1), options.scene.file);
 }
 
 std::vector<Output> outputs(const RenderOptions& options, const image::RgbImage& picture, const Stats& stats) {
@@ -91,6 +96,9 @@ Result<Outcome> run(const RenderOptions& options, const Console& console) {
   const double loadMs = watch.lap();
   const auto view = makeView(std::move(*scene), options.view);
   if (!view) return tl::unexpected(view.error());
+  // Several lights have a mask each, whose names are known only now.
+  if (const auto open = checkOutputs(files(options, view->lights.size()), options.scene.file); !open)
+    return tl::unexpected(open.error());
   const auto geometry = shadow::makeGeometry(view->scene);
   const double geometryMs = watch.lap();
   const auto drawing = draw(options.technique, geometry, *view, console);

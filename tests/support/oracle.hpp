@@ -98,6 +98,8 @@ class Oracle {
       const Crossing hit =
           meet(eye, direction, surfaces_.corner(t, 0), surfaces_.corner(t, 1), surfaces_.corner(t, 2), 1e-7);
       if (hit.answer == Answer::no || hit.t <= 0.0) continue;
+      // By definition: a surface in whose plane the eye lies, as far as it can be drawn, shows nothing.
+      if (liesInPlane(surfaces_.corner(t, 0), surfaces_.corner(t, 1), surfaces_.corner(t, 2), eye)) continue;
       if (hit.t < best) {
         second = std::exchange(best, hit.t);
         pixel.triangle = t;

@@ -69,5 +69,14 @@ RC_GTEST_PROP(LightSide, EqualsTheExactDeterminantOnALattice, ()) {
   RC_ASSERT(lightSide(corner[0], corner[1], corner[2], light) == (exact > 0) - (exact < 0));
 }
 
+TEST(LiesInPlane, IsMeasuredByTheTrianglesReach) {
+  const Vec3 a(-100, -100, 0), b(0, 100, 0), c(100, -100, 0);
+  EXPECT_TRUE(liesInPlane(a, b, c, {1, 2, 0}));
+  EXPECT_TRUE(liesInPlane(a, b, c, {1, 2, 1e-6}));
+  EXPECT_FALSE(liesInPlane(a, b, c, {1, 2, 1e-5}));
+  EXPECT_TRUE(liesInPlane(a, b, c, a));
+  EXPECT_TRUE(liesInPlane(a, a, c, {5, 5, 5}));  // no plane at all
+}
+
 }  // namespace
 }  // namespace umbrage

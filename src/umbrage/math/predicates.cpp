@@ -30,6 +30,12 @@ int lightSide(const Vec3& a, const Vec3& b, const Vec3& c, const Vec4& light) {
   return volume > 0.0 ? +1 : -1;
 }
 
+bool liesInPlane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& point) {
+  const Vec3 normal = glm::cross(b - a, c - a);
+  const double farthest = std::max({glm::length(a - point), glm::length(b - point), glm::length(c - point)});
+  return std::abs(glm::dot(normal, a - point)) <= 0x1p-25 * farthest * glm::length(normal);
+}
+
 double distanceToTriangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 normal = glm::cross(b - a, c - a);
   const double length = glm::length(normal);

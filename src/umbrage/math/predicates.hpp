@@ -14,6 +14,10 @@ namespace umbrage {
 /// Source: Kim, Kim and Turk, shadow volumes for non-manifold meshes, 2008; operand order after Pečiva, Milet et al., 2013.
 [[nodiscard]] int lightSide(const Vec3& a, const Vec3& b, const Vec3& c, const Vec4& light);
 
+/// Whether a point lies in the plane of a triangle as far as single precision can draw the triangle from there: within 2^-25 of
+/// the distance to its farthest corner. Seen from such a point it is edge-on.
+[[nodiscard]] bool liesInPlane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& point);
+
 /// Distance from a point to a triangle, filled. A triangle without area is its edges.
 [[nodiscard]] double distanceToTriangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c);
 

@@ -45,7 +45,7 @@ Result<GpuScene> GpuScene::make(const scene::Surfaces& surfaces) {
 Result<void> GpuScene::leaveOutEdgeOn(const scene::Surfaces& surfaces, const Vec3& eye) {
   std::vector<std::uint32_t> triangles;
   for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t)
-    if (lightSide(surfaces.corner(t, 0), surfaces.corner(t, 1), surfaces.corner(t, 2), Vec4(eye, 1.0)) == 0)
+    if (liesInPlane(surfaces.corner(t, 0), surfaces.corner(t, 1), surfaces.corner(t, 2), eye))
       triangles.push_back(t);
   if (triangles.empty() && complete_) return {};
   std::vector<mesh::Triangle> drawn = surfaces.triangles;

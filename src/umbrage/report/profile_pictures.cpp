@@ -102,8 +102,8 @@ std::string ledgerText(const study::Profile& profile, std::string_view subject) 
 
 std::string subtitleOf(const scene::Scene& scene, const study::Profile& profile) {
   const std::string name = titleOf(scene);
-  const std::string when = fmt::format("{}, {} to {}", ledgerText(profile, "Date"), profile.steps.front().moment.label,
-                                       profile.steps.back().moment.label);
+  const std::string period = ledgerText(profile, "Period");
+  const std::string when = ledgerText(profile, "Date") + ", " + period.substr(0, period.find(','));
   return name.empty() ? when : name + ", " + when;
 }
 

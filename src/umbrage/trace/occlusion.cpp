@@ -91,7 +91,7 @@ void rejectWhatIsNotCrossed(const RTCFilterFunctionNArguments* arguments) {
   const auto* query = reinterpret_cast<const ExactQuery*>(arguments->context);
   const std::uint32_t triangle = (*query->triangles)[RTCHitN_primID(arguments->hit, arguments->N, 0)];
   const Corners c = query->occlusion->corners(triangle);
-  const bool edgeOn = lightSide(c.a, c.b, c.c, Vec4(query->from, 1.0)) == 0;
+  const bool edgeOn = liesInPlane(c.a, c.b, c.c, query->from);
   if (edgeOn || !crossing(query->from, query->direction, c)) arguments->valid[0] = 0;
 }
 

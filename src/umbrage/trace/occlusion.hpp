@@ -47,7 +47,7 @@ class Occlusion {
   }
 
   /// The nearest surface of any kind, either side; hits are decided in double precision. `from` is relative to the origin of the
-  /// surfaces. A surface whose plane holds `from` is edge-on and not met.
+  /// surfaces. A surface whose plane holds `from` (liesInPlane) is edge-on and not met.
   [[nodiscard]] std::optional<Hit> nearest(const Vec3& from, const Vec3& direction) const;
   /// In single precision: whether a surface through or very near a start is met is left to chance.
   [[nodiscard]] Hits8 nearest(const Rays8& rays) const;

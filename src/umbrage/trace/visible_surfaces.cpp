@@ -22,6 +22,7 @@ struct View {
   scene::PixelRays rays;
   double clear;  ///< distance from the eye in which nothing is
   double near;   ///< distance from the eye in which single precision may be wrong about a hit
+  double low;    ///< height of the eye over a plane below which it may count as lying in it (liesInPlane)
 };
 
 // A hit in single precision, made exact. Nothing where that takes a second look: very near the eye, or edge-on, where a triangle
@@ -30,9 +31,10 @@ std::optional<double> exactDepth(const View& view, std::uint32_t triangle, const
   const Corners c = view.occlusion.corners(triangle);
   const Vec3 normal = glm::cross(c.b - c.a, c.c - c.a);
   const double slope = glm::dot(normal, direction), square = glm::dot(direction, direction);
-  const bool edgeOn = slope * slope <= kEdgeOn * kEdgeOn * glm::dot(normal, normal) * square;
+  const double area = glm::dot(normal, normal), height = glm::dot(c.a - view.eye, normal);
+  const bool edgeOn = slope * slope <= kEdgeOn * kEdgeOn * area * square || height * height <= view.low * view.low * area;
   if (edgeOn || estimate * estimate * square <= view.near * view.near) return std::nullopt;
-  return glm::dot(c.a - view.eye, normal) / slope;
+  return height / slope;
 }
 
 void castPacket(const View& view, const Tile& tile, int x, int y, shadow::SurfaceBuffer& out) {
@@ -70,7 +72,8 @@ Result<shadow::SurfaceBuffer> visibleSurfaces(const Occlusion& occlusion, const 
   const scene::Surfaces& surfaces = occlusion.surfaces();
   const Vec3 eye = camera.eye - surfaces.origin;
   const double near = 0x1p-18 * glm::length(eye) + 64.0 * occlusion.resolution();
-  const View view{occlusion, eye, scene::pixelRays(camera), distanceToBox(eye, surfaces.bounds), near};
+  const double low = 0x1p-25 * (glm::length(eye - surfaces.bounds.centre()) + surfaces.bounds.radius());
+  const View view{occlusion, eye, scene::pixelRays(camera), distanceToBox(eye, surfaces.bounds), near, low};
   shadow::SurfaceBuffer out{{camera.width, camera.height, shadow::kNoTriangle},
                             {camera.width, camera.height, kInfinity}};
   const auto done = forEachTile(camera.width, camera.height, [&](const Tile& tile) {

@@ -120,6 +120,7 @@ std::vector<NamedView> standardViews(const scene::Scene& s, const std::vector<Na
       {"from_its_shadow_to_the_lamp", view(behind, lamp, 90)},
       {"in_the_suns_shadow", view(behindSun, c, 90)},
       {"at_the_lowest_level", view({c.x - 1.7 * r, c.y - 1.9 * r, lowestLevel(s)}, c)},
+      {"hardly_above_it", view({c.x - 1.7 * r, c.y - 1.9 * r, lowestLevel(s) + 1e-7 * r}, c)},
       {"almost_touching", view(Vec3(c.x, box.min.y - 1e-3 * r, c.z), c + r * Vec3(0.9, 0.6, -0.7), 90)}};
   addSideViews(s, lights[0], box, views);
   addSideViews(s, lights[1], box, views);
