@@ -16,7 +16,7 @@ namespace {
 std::vector<shadow::TechniqueEntry> allTechniques() {
   auto all = techniques::cpuTechniques();
 #ifdef UMBRAGE_HAVE_TECHNIQUES_GL
-  for (auto& entry : techniques::glTechniques()) all.push_back(std::move(entry));
+  for (auto& entry : techniques::openGlTechniques()) all.push_back(std::move(entry));
 #endif
   return all;
 }

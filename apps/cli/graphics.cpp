@@ -18,7 +18,7 @@ Graphics findGraphics() {
   return {(*context)->renderer(), (*context)->isSoftware(), ""};
 }
 
-std::vector<shadow::TechniqueEntry> graphicsTechniques() { return techniques::glTechniques(); }
+std::vector<shadow::TechniqueEntry> graphicsTechniques() { return techniques::openGlTechniques(); }
 
 Result<image::RgbImage> drawOver(const image::RgbImage& picture, const std::vector<std::string>& what,
                                  const shadow::Geometry& geometry, const shadow::Frame& frame) {

@@ -46,7 +46,7 @@ std::vector<std::pair<int, int>> farPixels(const shadow::LightMask& mask, const 
 std::vector<shadow::TechniqueEntry> allTechniques() {
   auto all = techniques::cpuTechniques();
 #ifdef UMBRAGE_HAVE_TECHNIQUES_GL
-  for (auto& entry : techniques::glTechniques()) all.push_back(std::move(entry));
+  for (auto& entry : techniques::openGlTechniques()) all.push_back(std::move(entry));
 #endif
   return all;
 }

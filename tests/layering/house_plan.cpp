@@ -112,16 +112,15 @@ std::optional<Include> includeIn(std::string_view line) {
 
 bool isNameCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
-/// The first gl[A-Z]..( of a line, or nothing. Our own functions with such names are not OpenGL's.
+/// The first gl[A-Z]..( of a line, or nothing.
 std::optional<std::string> glCallIn(std::string_view line) {
-  static const std::set<std::string_view> ours = {"glTechniques"};
   for (std::size_t at = line.find("gl"); at != line.npos; at = line.find("gl", at + 2)) {
     if (at > 0 && isNameCharacter(line[at - 1])) continue;
     std::size_t end = at;
     while (end < line.size() && isNameCharacter(line[end])) ++end;
     const std::string_view name = line.substr(at, end - at);
     const bool capital = name.size() > 2 && std::isupper(static_cast<unsigned char>(name[2]));
-    if (capital && end < line.size() && line[end] == '(' && !ours.contains(name)) return std::string(name);
+    if (capital && end < line.size() && line[end] == '(') return std::string(name);
   }
   return std::nullopt;
 }

@@ -82,7 +82,7 @@ TEST_F(PlantedFaults, CleanFilesPass) {
   EXPECT_THAT(check("src/umbrage/trace/trace_test.cpp", "#include \"umbrage/gl/pass.hpp\"\n#include <gtest/gtest.h>\n"),
               IsEmpty());
   EXPECT_THAT(check("src/umbrage/techniques/gl/registry.cpp",
-                    "#include \"umbrage/techniques/gl/zfail/zfail.hpp\"\nglTechniques();"),
+                    "#include \"umbrage/techniques/gl/zfail/zfail.hpp\"\nopenGlTechniques();"),
               IsEmpty());
 }
 

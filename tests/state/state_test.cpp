@@ -110,7 +110,7 @@ TEST_P(HostState, ComesBackFromDrawingAPicture) {
 
 TEST_P(HostState, ComesBackFromRegisteredTechniquesInTheirOwnContext) {
   const auto geometry = shadow::makeGeometry(boxes());
-  for (const auto& entry : techniques::glTechniques()) {
+  for (const auto& entry : techniques::openGlTechniques()) {
     auto technique = entry.create();
     ASSERT_TRUE(technique) << technique.error().text();
     demandBack([&] {

@@ -22,7 +22,7 @@ shadow::TechniqueEntry entry(shadow::Traits traits, Maker make, ContextSlot slot
 
 }  // namespace
 
-std::vector<shadow::TechniqueEntry> glTechniques() {
+std::vector<shadow::TechniqueEntry> openGlTechniques() {
   const auto slot = std::make_shared<std::shared_ptr<gl::Context>>();
   return {entry(zFailTraits(), makeZFail, slot), entry(zPassTraits(), makeZPass, slot)};
 }

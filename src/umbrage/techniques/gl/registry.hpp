@@ -7,6 +7,6 @@
 namespace umbrage::techniques {
 
 /// Every technique of this room. The entries of one list share one headless context, made when the first is created.
-[[nodiscard]] std::vector<shadow::TechniqueEntry> glTechniques();
+[[nodiscard]] std::vector<shadow::TechniqueEntry> openGlTechniques();
 
 }  // namespace umbrage::techniques

@@ -444,7 +444,7 @@ INSTANTIATE_TEST_SUITE_P(Gl, StencilTechniques, ::testing::Values(makeZFail, mak
                          [](const auto& which) { return which.index == 0 ? "zfail" : "zpass"; });
 
 TEST(GlTechniques, AreTheTwoWaysToCount) {
-  const auto entries = glTechniques();
+  const auto entries = openGlTechniques();
   ASSERT_EQ(entries.size(), 2u);
   EXPECT_EQ(entries[0].traits.name, "zfail");
   EXPECT_EQ(entries[1].traits.name, "zpass");
