@@ -121,11 +121,12 @@ void shadePacket(const Shadowing& s, const trace::Tile& tile, int x, int y, imag
   });
 }
 
-image::GreyImage coverage(const shadow::SurfaceBuffer& seen) {
-  image::GreyImage covered(seen.triangle.width(), seen.triangle.height());
-  for (std::size_t i = 0; i < covered.size(); ++i)
-    covered.pixels()[i] = seen.triangle.pixels()[i] != shadow::kNoTriangle ? 1 : 0;
-  return covered;
+void markCovered(const shadow::SurfaceBuffer& seen, const trace::Tile& tile, image::GreyImage& covered) {
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    const std::uint32_t* triangle = seen.triangle.row(y);
+    std::uint8_t* row = covered.row(y);
+    for (int x = tile.x0; x < tile.x1; ++x) row[x] = triangle[x] != shadow::kNoTriangle ? 1 : 0;
+  }
 }
 
 class RayTraced final : public shadow::Technique {
@@ -177,8 +178,9 @@ class RayTraced final : public shadow::Technique {
                       rays,
                       stepsOf(rays),
                       kPixelPart * std::min(glm::length(rays.dx), glm::length(rays.dy))};
-    shadow::LightMask mask{{camera.width, camera.height, 0}, {}, coverage(seen)};
+    shadow::LightMask mask{{camera.width, camera.height}, {}, {camera.width, camera.height}};
     const auto done = trace::forEachTile(camera.width, camera.height, [&](const trace::Tile& tile) {
+      markCovered(seen, tile, mask.covered);
       for (int y = tile.y0; y < tile.y1; y += 2)
         for (int x = tile.x0; x < tile.x1; x += 4) shadePacket(s, tile, x, y, mask.light);
     });
