@@ -1,6 +1,6 @@
 #pragma once
 
-#include "drawing.hpp"
+#include "umbrage/shadow/edge_finder.hpp"
 
 namespace umbrage::cli {
 
@@ -10,15 +10,14 @@ struct Agreement {
   std::size_t astray = 0;     ///< those that no true shadow or depth edge comes near
   std::size_t covered = 0;    ///< pixels with a surface
 
-  /// One pixel in 100,000 may stray: depths in single precision decide no finer.
-  [[nodiscard]] std::size_t allowed() const { return covered / 100000; }
-  [[nodiscard]] bool holds() const { return astray <= allowed(); }
+  [[nodiscard]] bool holds() const { return astray == 0; }
 };
 
-/// Per light, which pixels of `mine` differ from `theirs`. A pixel that differs is astray unless an edge of the truth is within
-/// the techniques' own tolerance: an edge of the mask, or one that 32 x 32 rays a pixel find. The truth is ray_traced where it is
-/// one of the two, so that a lone wrong pixel is no edge of its own; else `theirs`.
-[[nodiscard]] Result<std::vector<Agreement>> compareMasks(const Drawing& mine, const Drawing& theirs, const View& view,
-                                                          const std::shared_ptr<const shadow::Geometry>& geometry);
+/// Per light of `frame`, which pixels of `mine` differ from `reference`. A pixel that differs is astray unless an edge of the
+/// reference is within `tolerance` pixels, or `edges` finds one near it.
+[[nodiscard]] Result<std::vector<Agreement>> compareMasks(std::span<const shadow::LightMask> mine,
+                                                          std::span<const shadow::LightMask> reference,
+                                                          const shadow::Frame& frame, int tolerance,
+                                                          const shadow::EdgeFinder& edges);
 
 }  // namespace umbrage::cli

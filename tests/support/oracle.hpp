@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "umbrage/math/predicates.hpp"
 #include "umbrage/scene/camera.hpp"

@@ -1,10 +1,11 @@
 #include "umbrage/render/gpu_scene.hpp"
 
 #include <bit>
+#include <utility>
 #include <vector>
 
 #include "umbrage/gl/quirks.hpp"
-#include "umbrage/math/predicates.hpp"
+#include "umbrage/render/large_triangles.hpp"
 
 namespace umbrage::render {
 namespace {
@@ -39,18 +40,25 @@ Result<GpuScene> GpuScene::make(const scene::Surfaces& surfaces) {
                            scene.drawn_.setAll(surfaces.triangles)})
     if (!done) return tl::unexpected(done.error());
   scene.vertices_ = gl::VertexArray(scene.drawn_);
+  scene.largeVertices_ = gl::VertexArray(scene.largeDrawn_);
   return scene;
 }
 
-Result<void> GpuScene::leaveOutEdgeOn(const scene::Surfaces& surfaces, const Vec3& eye) {
-  std::vector<std::uint32_t> triangles;
-  for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t)
-    if (liesInPlane(surfaces.corner(t, 0), surfaces.corner(t, 1), surfaces.corner(t, 2), eye))
-      triangles.push_back(t);
-  if (triangles.empty() && complete_) return {};
+Result<void> GpuScene::arrangeFor(const scene::Surfaces& surfaces, const Vec3& eye, const Vec3& forward) {
+  const Arrangement arrangement = arrange(surfaces, eye, forward);
+  std::vector<std::uint32_t> apart = arrangement.edgeOn;
+  std::vector<mesh::Triangle> large;
+  for (const LargeTriangle& t : arrangement.large) {
+    apart.push_back(t.id);
+    large.push_back(surfaces.triangles[t.id]);
+  }
+  largeIndexCount_ = 3 * large.size();
+  for (const auto& done : {large_.setAll(arrangement.large), largeDrawn_.setAll(large)})
+    if (!done) return done;
+  if (apart == apart_) return {};
   std::vector<mesh::Triangle> drawn = surfaces.triangles;
-  for (const std::uint32_t t : triangles) drawn[t] = {drawn[t][0], drawn[t][0], drawn[t][0]};  // covers no pixel
-  complete_ = triangles.empty();
+  for (const std::uint32_t t : apart) drawn[t] = {drawn[t][0], drawn[t][0], drawn[t][0]};  // covers no pixel
+  apart_ = std::move(apart);
   return drawn_.setAll(drawn);
 }
 

@@ -139,11 +139,11 @@ Result<image::RgbaImage> drawLayer(const std::vector<Mark>& marks, const View& v
   if (auto done = frame->needPicture(); !done) return tl::unexpected(done.error());
   auto gpuScene = GpuScene::make(geometry.surfaces);
   if (!gpuScene) return tl::unexpected(gpuScene.error());
-  if (auto done = gpuScene->leaveOutEdgeOn(geometry.surfaces, view.eye - geometry.surfaces.origin); !done)
-    return tl::unexpected(done.error());
-  gl::Buffer viewData, markData;
-  if (auto done = viewData.setOne(viewBlock(view, geometry.surfaces.origin, Vec4(0.0))); !done)
-    return tl::unexpected(done.error());
+  const Vec3& origin = geometry.surfaces.origin;
+  gl::Buffer viewData, shading, markData;
+  for (const auto& done : {gpuScene->arrangeFor(geometry.surfaces, view.eye - origin, scene::basis(camera).forward),
+                           viewData.setOne(viewBlock(view, origin, Vec4(0.0))), shading.setOne(shadingBlock(camera))})
+    if (!done) return tl::unexpected(done.error());
   if (auto done = setStorage(markData, std::as_bytes(std::span(marks)), "marks"); !done)
     return tl::unexpected(done.error());
 
@@ -157,6 +157,7 @@ Result<image::RgbaImage> drawLayer(const std::vector<Mark>& marks, const View& v
        .scene = &*gpuScene,
        .frame = &*frame,
        .view = &viewData,
+       .shading = &shading,
        .lights = none});
 
   const gl::Program program(shaders::kOverlayVert, shaders::kOverlayFrag);

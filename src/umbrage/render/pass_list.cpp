@@ -9,8 +9,9 @@ using gl::Compare;
 using gl::StencilOp;
 
 constexpr std::array kTargets{"surface", "stencil", "mask", "sum", "picture", "host"};
-constexpr std::array kDraws{"nothing",         "all surfaces",   "sides by z-pass",
-                            "sides by z-fail", "caps by z-fail", "the screen"};
+constexpr std::array kDraws{"nothing",         "surfaces",        "surfaces that reach far",
+                            "sides by z-pass", "sides by z-fail", "caps by z-fail",
+                            "the screen"};
 
 Compare nearer(bool reversed) { return reversed ? Compare::greater : Compare::less; }
 
@@ -38,6 +39,12 @@ struct Planner {
     s.clearDepth = reversed ? 0.0f : 1.0f;
     s.state.colourWrite = true;
     s.state.depth = {.test = true, .pass = nearer(reversed), .write = true, .clamp = true};
+    list.steps.push_back(s);
+    s.name = "surfaces that reach far";
+    s.shader = Shader::largeSurface;
+    s.draw = Draw::largeSurfaces;
+    s.clearColour = false;
+    s.clearDepth.reset();
     list.steps.push_back(s);
   }
 

@@ -11,9 +11,9 @@
 namespace umbrage::render {
 
 enum class Target { surface, stencil, mask, sum, picture, host };
-enum class Shader { none, surface, volume, keepShadow, lightMask, ambient, light, encode };
-/// What is drawn: nothing, all surfaces, a part of a light's volumes, one triangle over the whole target.
-enum class Draw { nothing, surfaces, passSides, failSides, failCaps, screen };
+enum class Shader { none, surface, largeSurface, volume, keepShadow, lightMask, ambient, light, encode };
+/// What is drawn: nothing, the surfaces (those that reach far apart), a part of a light's volumes, one triangle over the whole target.
+enum class Draw { nothing, surfaces, largeSurfaces, passSides, failSides, failCaps, screen };
 
 /// One pass as plain data.
 struct PassStep {

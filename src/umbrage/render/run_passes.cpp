@@ -6,6 +6,7 @@
 #include <umbrage_shaders/light_mask_frag.hpp>
 #include <umbrage_shaders/screen_vert.hpp>
 #include <umbrage_shaders/surface_frag.hpp>
+#include <umbrage_shaders/surface_large_frag.hpp>
 #include <umbrage_shaders/surface_vert.hpp>
 #include <umbrage_shaders/volume_frag.hpp>
 #include <umbrage_shaders/volume_vert.hpp>
@@ -21,6 +22,7 @@ gl::Program compile(Shader shader) {
   switch (shader) {
     case Shader::none: break;
     case Shader::surface: return {kSurfaceVert, kSurfaceFrag};
+    case Shader::largeSurface: return {kSurfaceVert, kSurfaceLargeFrag};
     case Shader::volume: return {kVolumeVert, kVolumeFrag};
     case Shader::keepShadow: return {kScreenVert, kVolumeFrag};
     case Shader::lightMask: return {kScreenVert, kLightMaskFrag};
@@ -75,6 +77,11 @@ void draw(gl::Pass& pass, const PassStep& step, const RunInput& input, const Gpu
   switch (step.draw) {
     case Draw::nothing: break;
     case Draw::surfaces: pass.drawIndexed(input.scene->vertices(), 0, input.scene->indexCount()); break;
+    case Draw::largeSurfaces:
+      pass.uniforms(1, *input.shading);
+      pass.storage(1, input.scene->largeTriangles());
+      pass.drawIndexed(input.scene->largeVertices(), 0, input.scene->largeIndexCount());
+      break;
     case Draw::passSides: volume(light->groups[group].passSides); break;
     case Draw::failSides: volume(light->groups[group].failSides); break;
     case Draw::failCaps: volume(light->groups[group].failCaps); break;

@@ -134,7 +134,8 @@ class StencilTechnique final : public GlTechnique {
     placement.viewport = {0, 0, camera.width, camera.height};
     if (auto done = uploadFrame(view, camera, options); !done) return done;
     const scene::Surfaces& surfaces = geometry_->surfaces;
-    if (auto done = own_->scene->leaveOutEdgeOn(surfaces, view.eye - surfaces.origin); !done) return done;
+    if (auto done = own_->scene->arrangeFor(surfaces, view.eye - surfaces.origin, scene::basis(camera).forward); !done)
+      return done;
     if (ended) ended("facing");
 
     std::vector<LightPlan> plans;

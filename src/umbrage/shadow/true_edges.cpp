@@ -47,9 +47,9 @@ scene::Camera divided(scene::Camera camera, int factor) {
   return camera;
 }
 
-scene::Camera magnified(const scene::Camera& camera, int x, int y, int samples) {
+scene::Camera magnified(const scene::Camera& camera, double x, double y, int samples) {
   const scene::PixelRays rays = scene::pixelRays(camera);
-  const auto through = [&](double dx, double dy) { return glm::normalize(rays.through(x + 0.5 + dx, y + 0.5 + dy)); };
+  const auto through = [&](double dx, double dy) { return glm::normalize(rays.through(x + dx, y + dy)); };
   const Vec3 centre = through(0, 0);
   double half = 1.0;
   for (const auto& [dx, dy] : {std::pair(1.5, 0.0), std::pair(-1.5, 0.0), std::pair(0.0, 1.5), std::pair(0.0, -1.5)})

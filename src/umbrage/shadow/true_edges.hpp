@@ -11,9 +11,9 @@ namespace umbrage::shadow {
 /// The same view with every pixel divided into `factor` x `factor`.
 [[nodiscard]] scene::Camera divided(scene::Camera camera, int factor);
 
-/// A view of the pixel (x, y) and its eight neighbours alone, or a little less, with `samples` x `samples` pixels for each: a narrow
-/// pinhole aimed at the pixel's centre.
-[[nodiscard]] scene::Camera magnified(const scene::Camera& camera, int x, int y, int samples);
+/// A view of three by three pixels alone, or a little less, with `samples` x `samples` pixels for each: a narrow pinhole aimed at the
+/// point (x, y) of the picture; whole numbers plus 0.5 are centres of pixels.
+[[nodiscard]] scene::Camera magnified(const scene::Camera& camera, double x, double y, int samples);
 
 /// Where true edges lie, found from a truth of finer grain: `seen` and `truth` are of the view divided(camera, factor).
 ///

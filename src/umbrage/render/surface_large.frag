@@ -1,0 +1,34 @@
+#version 450 core
+// What the camera sees of triangles that reach far: their depth by the plane, not by what is interpolated from corners far away.
+layout(std140, binding = 0) uniform View {
+  mat4 toClip;     // from (position - eye, w)
+  vec4 eyeHigh;    // the eye in two floats a component, so that position - eye is exact near the eye
+  vec4 eyeLow;
+  vec4 lightHigh;  // the light likewise; w = 0: the direction towards it
+  vec4 lightLow;
+};
+layout(std140, binding = 1) uniform Shading {
+  vec4 rayCorner;   // the ray through window coordinates (x, y): rayCorner + x * rayX + y * rayY, relative to the eye
+  vec4 rayX;
+  vec4 rayY;
+  vec4 light;       // relative to the eye; w = 0: the direction towards it
+  vec4 radiance;    // linear colour x intensity
+  vec4 cone;        // a spot's direction and the cosine of its cutoff; w below -1: no cone
+  vec4 sky;         // up, and the ambient light
+  vec4 background;  // sRGB
+};
+struct Large {
+  vec4 plane;  // xyz . ray = 1 / depth, at most w; w < 0: take the interpolated depth
+  uvec4 id;
+};
+layout(std430, binding = 1) readonly buffer LargeTriangles { Large large[]; };
+
+layout(location = 0) out uint id;
+
+void main() {
+  vec3 ray = rayCorner.xyz + gl_FragCoord.x * rayX.xyz + gl_FragCoord.y * rayY.xyz;
+  vec4 plane = large[gl_PrimitiveID].plane;
+  float nearDistance = toClip[3].z;
+  gl_FragDepth = plane.w < 0.0 ? gl_FragCoord.z : nearDistance * clamp(dot(plane.xyz, ray), 0.0, plane.w);
+  id = large[gl_PrimitiveID].id.x;
+}
