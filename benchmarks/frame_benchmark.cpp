@@ -54,7 +54,9 @@ void prepare(benchmark::State& state, const shadow::TechniqueEntry& entry, View 
 
 const bool kRegistered = [] {
   const std::pair<const char*, View (*)()> views[] = {
-      {"building_air", fromTheAir}, {"building_street", fromTheStreet}, {"knot", knot}};
+      {"building_air", fromTheAir}, {"building_street", fromTheStreet}, {"knot", knot},
+      {"city_air", cityAir},        {"city_street", cityStreet},        {"city_lamp", cityLamp},
+      {"grooved_knot", groovedKnotView}};
   for (const auto& entry : allTechniques()) {
     for (const auto& [name, make] : views) {
       const auto run = [entry, make = make](benchmark::State& state) { frame(state, entry, make); };

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "scenes/staged_scene.hpp"
 #include "umbrage/samples/samples.hpp"
 
 namespace umbrage::benchmarks {
@@ -55,6 +56,17 @@ mesh::Mesh knotMesh(std::uint32_t columns, std::uint32_t rows) {
   return m;
 }
 
+View viewOf(const StagedScene& stage, const std::shared_ptr<const shadow::Geometry>& geometry, std::size_t shot) {
+  const Shot& s = stage.shots[shot];
+  return {s.name, geometry, s.camera, s.light};
+}
+
+View cityView(std::size_t shot) {
+  static const StagedScene stage = city();
+  static const auto geometry = shadow::makeGeometry(stage.scene);
+  return viewOf(stage, geometry, shot);
+}
+
 }  // namespace
 
 View fromTheAir() {
@@ -81,6 +93,15 @@ View knot() {
           shadow::makeGeometry(scene::withGround(std::move(s))),
           camera({2.6, -3.4, 4.2}, {0, 0, 1.8}),
           {scene::PointLight{{2, -4, 7}}, Vec3(1.0), 1.0, "lamp"}};
+}
+
+View cityAir() { return cityView(0); }
+View cityStreet() { return cityView(1); }
+View cityLamp() { return cityView(2); }
+
+View groovedKnotView() {
+  const StagedScene stage = groovedKnot();
+  return viewOf(stage, shadow::makeGeometry(stage.scene), 0);
 }
 
 }  // namespace umbrage::benchmarks

@@ -20,5 +20,10 @@ struct View {
 [[nodiscard]] View fromTheStreet();
 /// A torus knot of 70,000 triangles that fills the picture: curved, everywhere near its own shadow.
 [[nodiscard]] View knot();
+/// The shots of scenes/staged_scene.hpp, which other programs draw too.
+[[nodiscard]] View cityAir();
+[[nodiscard]] View cityStreet();
+[[nodiscard]] View cityLamp();
+[[nodiscard]] View groovedKnotView();
 
 }  // namespace umbrage::benchmarks
