@@ -79,8 +79,8 @@ double borderBetween(const trace::Occlusion& occlusion, const scene::Light& ligh
   const auto hidden = [&](double s) {
     trace::SurfacePoints8 points;
     points.active = 1;
-    points.position[0] = inside + s * (outside - inside);
-    points.normal[0] = {0, 0, 1};
+    points.position.set(0, inside + s * (outside - inside));
+    points.normal.set(0, {0, 0, 1});
     points.triangle[0] = shadow::kNoTriangle;
     points.precision[0] = 0.0;
     return rays.hidden(points) != 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "umbrage/base/check.hpp"
 #include "umbrage/math/predicates.hpp"
 #include "umbrage/trace/detail/embree_scene.hpp"
 
@@ -18,6 +19,7 @@ constexpr double kNearResolutions = 64.0;
 // the ray's length divided by that sine.
 constexpr float kEdgeOn = 1e-4f;
 constexpr float kLastPart = 0.99f;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
@@ -50,14 +52,14 @@ struct Query {
   const Occlusion* occlusion;
   const SurfacePoints8* points;
   const Vec4* light;
-  std::array<float, 8> exactBelow;  ///< hits at smaller parameters are decided in double precision
-  float exactAbove;                 ///< and at larger ones
+  const float* exactBelow;  ///< per lane: hits at smaller parameters are decided in double precision
+  float exactAbove;         ///< and at larger ones
 };
 
 bool hidesPoint(const Query& query, std::uint32_t triangle, std::size_t k) {
   if (triangle == query.points->triangle[k]) return false;
   const Corners corners = query.occlusion->corners(triangle);
-  const Vec3& point = query.points->position[k];
+  const Vec3 point = query.points->position[k];
   return hides(corners, point, *query.light) && !sameSurface(corners, point, query.occlusion->resolution());
 }
 
@@ -83,18 +85,62 @@ void rejectFalseHits(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
-struct Start {
-  Vec3 from;
-  float exactBelow;  ///< distance from `from`
+/// Where rays start and end.
+struct Aim {
+  Vec4 light;
+  double resolution;
+  float cut;  ///< rays end this far from the light, plus a part of their length
 };
 
-// Lifted off the surface where that is precise enough; else a little behind it, with every hit looked at in double precision.
-// `height`: of the light above the surface (for a direction: the sine of its elevation).
-Start startOf(const Vec3& point, const Vec3& normal, const Vec3& towards, double length, double height, double lift,
-              double precision, double resolution) {
-  if (lift * length <= precision * height)
-    return {point + lift * normal, static_cast<float>(kNearResolutions * resolution)};
-  return {point - (2.0 * resolution / length) * towards, std::numeric_limits<float>::infinity()};
+// Rays from eight points to the light, lane by lane without a branch; lanes that hold no point get some ray.
+// A start is lifted off the surface where that is precise enough; else it lies a little behind it, and every hit is looked at in
+// double precision. The light's height over the surface is, for a direction, the sine of its elevation.
+template <bool kFinite>
+UMBRAGE_LANES void aim(const Aim& a, const SurfacePoints8& points, RTCRay8& rays, float* exactBelow) {
+  const float nearBelow = static_cast<float>(kNearResolutions * a.resolution);
+  for (std::size_t k = 0; k < 8; ++k) {
+    const Vec3 point = points.position[k], normal = points.normal[k];
+    const Vec3 towards = scene::towardsLight(a.light, point);
+    const double length = kFinite ? glm::length(towards) : 1.0;
+    const float inverse = 1.0f / static_cast<float>(length);
+    const double height = glm::dot(normal, towards);
+    const double lift = kFinite ? std::min(a.resolution, 0.5 * height) : a.resolution;
+    const bool lifted = lift * length <= points.precision[k] * height;
+    const double back = -2.0 * a.resolution / length, step = lifted ? lift : back;
+    const Vec3f from(point.x + step * (lifted ? normal.x : towards.x), point.y + step * (lifted ? normal.y : towards.y),
+                     point.z + step * (lifted ? normal.z : towards.z));
+    const Vec3f along(kFinite ? Vec3(a.light) - Vec3(from) : towards);
+    rays.org_x[k] = from.x, rays.org_y[k] = from.y, rays.org_z[k] = from.z;
+    rays.dir_x[k] = along.x, rays.dir_y[k] = along.y, rays.dir_z[k] = along.z;
+    rays.tfar[k] = kFinite ? 1.0f - float(kRelativeCut) - a.cut * inverse : kInfinity;
+    exactBelow[k] = (lifted ? nearBelow : kInfinity) * inverse;
+  }
+}
+
+void setConstants(RTCRay8& rays) {
+  for (unsigned k = 0; k < 8; ++k) {
+    rays.tnear[k] = 0.0f;
+    rays.time[k] = 0.0f;
+    rays.mask[k] = ~0u;
+    rays.id[k] = k;
+    rays.flags[k] = 0;
+  }
+}
+
+RTCIntersectContext coherentContext() {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.filter = rejectFalseHits;
+  return context;
+}
+
+// Bit k: ray k meets what hides its point.
+std::uint32_t meets(Query& query, RTCRay8& rays) {
+  alignas(32) int valid[8];
+  for (std::size_t k = 0; k < 8; ++k) valid[k] = hasLane(query.points->active, k) && rays.tfar[k] > 0.0f ? -1 : 0;
+  detail::occluded(query.occlusion->trees(), valid, query.context, rays);
+  return lanesWhere([&](std::size_t k) { return valid[k] != 0 && rays.tfar[k] < 0.0f; });
 }
 
 }  // namespace
@@ -106,59 +152,38 @@ LightRays::LightRays(const Occlusion& occlusion, const scene::Light& light)
   nearLight_ = castersNear(occlusion, light_, cut_);
 }
 
-std::uint32_t LightRays::hidden(const SurfacePoints8& points) const {
-  const Trees& trees = occlusion_.trees();
-  if (points.active == 0 || trees.casterTriangle.empty()) return 0;
-  Query query;
-  rtcInitIntersectContext(&query.context);
-  query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  query.context.filter = rejectFalseHits;
-  query.occlusion = &occlusion_;
-  query.points = &points;
-  query.light = &light_;
-  query.exactAbove = light_.w == 0.0 ? std::numeric_limits<float>::infinity() : kLastPart;
-
-  RTCRay8 rays;
-  alignas(32) int valid[8];
+void LightRays::hidden(std::span<const SurfacePoints8> points, std::span<std::uint32_t> hidden) const {
+  UMBRAGE_CHECK(points.size() <= kBatch && points.size() == hidden.size(), "packets");
+  if (occlusion_.trees().casterTriangle.empty()) return void(std::fill(hidden.begin(), hidden.end(), 0u));
   const bool finite = light_.w != 0.0;
-  const double resolution = occlusion_.resolution();
-  for (std::size_t k = 0; k < 8; ++k) {
-    valid[k] = 0;
-    if ((points.active >> k & 1u) == 0) continue;
-    const Vec3 towards = scene::towardsLight(light_, points.position[k]);
-    const double length = finite ? glm::length(towards) : 1.0;
-    const float inverse = 1.0f / static_cast<float>(length);
-    const double height = glm::dot(points.normal[k], towards);
-    const Start start =
-        startOf(points.position[k], points.normal[k], towards, length, height,
-                finite ? std::min(resolution, 0.5 * height) : resolution, points.precision[k], resolution);
-    const float end =
-        finite ? 1.0f - float(kRelativeCut) - float(cut_) * inverse : std::numeric_limits<float>::infinity();
-    if (!(end > 0.0f)) continue;
-    const Vec3f from(start.from);
-    const Vec3f along(finite ? Vec3(light_) - Vec3(from) : towards);
-    rays.org_x[k] = from.x, rays.org_y[k] = from.y, rays.org_z[k] = from.z;
-    rays.dir_x[k] = along.x, rays.dir_y[k] = along.y, rays.dir_z[k] = along.z;
-    rays.tnear[k] = 0.0f;
-    rays.tfar[k] = end;
-    rays.time[k] = 0.0f;
-    rays.mask[k] = ~0u;
-    rays.id[k] = static_cast<unsigned>(k);
-    rays.flags[k] = 0;
-    query.exactBelow[k] = start.exactBelow * inverse;
-    valid[k] = -1;
+  const Aim to{light_, occlusion_.resolution(), static_cast<float>(cut_)};
+  std::array<RTCRay8, kBatch> rays;
+  alignas(32) std::array<std::array<float, 8>, kBatch> exactBelow;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    setConstants(rays[i]);
+    finite ? aim<true>(to, points[i], rays[i], exactBelow[i].data())
+           : aim<false>(to, points[i], rays[i], exactBelow[i].data());
   }
-  detail::occluded(trees, valid, query.context, rays);
-  std::uint32_t hidden = nearLight_.empty() ? 0 : hiddenNearLight(points);
-  for (std::size_t k = 0; k < 8; ++k) hidden |= valid[k] != 0 && rays.tfar[k] < 0.0f ? 1u << k : 0u;
-  return hidden;
+  Query query{coherentContext(), &occlusion_, nullptr, &light_, nullptr, finite ? kLastPart : kInfinity};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    query.points = &points[i];
+    query.exactBelow = exactBelow[i].data();
+    hidden[i] = meets(query, rays[i]);
+    if (!nearLight_.empty()) hidden[i] |= hiddenNearLight(points[i]);
+  }
+}
+
+std::uint32_t LightRays::hidden(const SurfacePoints8& points) const {
+  std::uint32_t bits = 0;
+  hidden({&points, 1}, {&bits, 1});
+  return bits;
 }
 
 std::uint32_t LightRays::hiddenNearLight(const SurfacePoints8& points) const {
   std::uint32_t hidden = 0;
-  const Query query{{}, &occlusion_, &points, &light_, {}, 0.0f};
+  const Query query{{}, &occlusion_, &points, &light_, nullptr, 0.0f};
   for (std::size_t k = 0; k < 8; ++k)
-    if ((points.active >> k & 1u) != 0 &&
+    if (hasLane(points.active, k) &&
         std::any_of(nearLight_.begin(), nearLight_.end(), [&](std::uint32_t t) { return hidesPoint(query, t, k); }))
       hidden |= 1u << k;
   return hidden;

@@ -2,20 +2,22 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "umbrage/scene/light.hpp"
+#include "umbrage/trace/lanes.hpp"
 #include "umbrage/trace/occlusion.hpp"
 
 namespace umbrage::trace {
 
 /// Eight points on surfaces, relative to the origin of the surfaces.
 struct SurfacePoints8 {
-  std::array<Vec3, 8> position;           ///< on the triangle's plane
-  std::array<Vec3, 8> normal;             ///< unit, on the light's side
+  Vec3Lanes position;  ///< on the triangle's plane
+  Vec3Lanes normal;    ///< unit, on the light's side
+  Lanes precision;     ///< shadow borders may be displaced by this much along the surface, in scene units
   std::array<std::uint32_t, 8> triangle;  ///< the one the point lies on; shadow::kNoTriangle: none
-  std::array<double, 8> precision;  ///< shadow borders may be displaced by this much along the surface, in scene units
-  std::uint32_t active = 0;         ///< bit k: point k is there
+  std::uint32_t active = 0;               ///< bit k: point k is there
 };
 
 /// Shadow rays towards one light: whether the segment from a surface point to the light meets a caster.
@@ -30,7 +32,13 @@ class LightRays {
  public:
   LightRays(const Occlusion& occlusion, const scene::Light& light);
 
-  /// Bit k: point k is hidden from the light. REQUIRES: each active point's normal does not point away from the light.
+  /// Packets that are best asked for together: their rays are prepared side by side.
+  static constexpr std::size_t kBatch = 8;
+
+  /// hidden[i], bit k: point k of points[i] is hidden from the light.
+  /// REQUIRES: as many `hidden` as `points`, at most kBatch; each active point's normal does not point away from the light.
+  void hidden(std::span<const SurfacePoints8> points, std::span<std::uint32_t> hidden) const;
+  /// The same for one packet.
   [[nodiscard]] std::uint32_t hidden(const SurfacePoints8& points) const;
 
   /// The light, homogeneous and relative to the origin of the surfaces.

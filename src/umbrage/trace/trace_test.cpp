@@ -101,8 +101,8 @@ TEST(LightRays, AskOnlyForHitsBetweenTheSurfaceAndTheLight) {
   points.active = 0b111;
   const std::array<Vec3, 3> at{Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(1.9, 0, 0)};
   for (std::size_t k = 0; k < 3; ++k) {
-    points.position[k] = at[k];
-    points.normal[k] = {0, 0, 1};
+    points.position.set(k, at[k]);
+    points.normal.set(k, {0, 0, 1});
     points.triangle[k] = ~0u;  // not said: the surface is known by its distance
     points.precision[k] = 1e-3;
   }
@@ -110,6 +110,51 @@ TEST(LightRays, AskOnlyForHitsBetweenTheSurfaceAndTheLight) {
   EXPECT_EQ(hidden({scene::PointLight{{0, 0, 2}}, Vec3(1.0), 1.0, ""}), 0b101u);
   EXPECT_EQ(hidden({scene::PointLight{{0, 0, 0.9}}, Vec3(1.0), 1.0, ""}), 0u);
   EXPECT_EQ(hidden({scene::DirectionalLight{{0, 0, -1}}, Vec3(1.0), 1.0, ""}), 0b001u);
+}
+
+TEST(Lanes, AreSingleBits) {
+  EXPECT_EQ(lanesWhere([](std::size_t k) { return k % 3 == 0; }), 0b1001001u);
+  EXPECT_EQ(lanesWhere([](std::size_t) { return true; }), 0xffu);
+  EXPECT_TRUE(hasLane(0b100u, 2));
+  EXPECT_FALSE(hasLane(0b100u, 1));
+}
+
+// Points on the ground below a soup, hidden or not as one ray after the other says in double precision.
+TEST(LightRays, AnswerManyPacketsAtOnceAsEachPointAlone) {
+  const Occlusion o = make(shapes::scene({shapes::soup(7, 60, [](shapes::Random& r) {
+    return r.point({Vec3(-2, -2, 1), Vec3(2, 2, 3)});
+  })}));
+  shapes::Random random(8);
+  std::array<SurfacePoints8, LightRays::kBatch> packets;
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    packets[i].active = 0xffu >> i;  // fewer and fewer; the others hold anything
+    for (std::size_t k = 0; k < 8 - i; ++k) {
+      packets[i].position.set(k, random.point({Vec3(-3, -3, 0), Vec3(3, 3, 0)}));
+      packets[i].normal.set(k, {0, 0, 1});
+      packets[i].triangle[k] = shadow::kNoTriangle;
+      packets[i].precision[k] = k % 2 == 0 ? 1e-3 : 0.0;  // 0: every hit in double precision
+    }
+  }
+  for (const scene::Light& light : {scene::Light{scene::PointLight{{0.5, 0.25, 6}}, Vec3(1.0), 1.0, ""},
+                                    scene::Light{scene::DirectionalLight{{0.2, 0.1, -1}}, Vec3(1.0), 1.0, ""}}) {
+    const LightRays rays(o, light);
+    std::array<std::uint32_t, LightRays::kBatch> hidden;
+    rays.hidden(packets, hidden);
+    std::size_t dark = 0, lit = 0;
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+      EXPECT_EQ(hidden[i], rays.hidden(packets[i]));
+      EXPECT_EQ(hidden[i] & ~packets[i].active, 0u);
+      for (std::size_t k = 0; k < 8 - i; ++k) {
+        bool expected = false;
+        for (std::uint32_t t = 0; t < o.surfaces().triangles.size(); ++t)
+          expected = expected || hides(o.corners(t), packets[i].position[k], rays.light());
+        EXPECT_EQ(hasLane(hidden[i], k), expected) << i << ' ' << k;
+        (expected ? dark : lit) += 1;
+      }
+    }
+    EXPECT_GT(dark, 5u);
+    EXPECT_GT(lit, 5u);
+  }
 }
 
 TEST(Tiles, CoverEveryPixelOnce) {

@@ -171,6 +171,35 @@ TEST(RayTraced, DoesNotShadowCoplanarOrCoincidentSurfaces) {
   }
 }
 
+TEST(RayTraced, IsRightInPicturesThatEndWithinAPacketOrATile) {
+  const auto s = scene::withGround(shapes::scene({shapes::box({-1, -1, 0}, {1, 1, 1.5})}));
+  const std::vector<Light> lights{point({2, -3, 4}), sun({-1, 0.5, -0.6}),
+                                  spot({2, -3, 4}, {-2, 3, -4}, Angle::degrees(20))};
+  std::size_t clear = 0, lit = 0;
+  for (const auto& [width, height] : {std::pair(1, 1), {3, 1}, {5, 3}, {31, 15}, {33, 17}, {70, 35}}) {
+    const Camera camera = looking({4, -5, 3}, {0, 0, 0.5}, width, height);
+    const Agreement a = compareWithOracle(shoot(s, camera, lights), camera, lights);
+    EXPECT_EQ(a.wrong, 0u) << width << " x " << height;
+    clear += a.clear, lit += a.lit;
+  }
+  EXPECT_GT(lit, 1000u);
+  EXPECT_GT(clear - lit, 1000u);
+}
+
+// Straight light rakes along every wall, and an eye in a wall's plane sees it edge-on: sides that no plane's height tells.
+TEST(RayTraced, IsRightWhereLightAndEyeLieInPlanesOfFaces) {
+  const auto s =
+      scene::withGround(shapes::scene({shapes::box({-1, -1, 0}, {1, 1, 1.5}), shapes::box({2, -1, 0}, {3, 1, 1})}));
+  const std::vector<Light> lights{sun({0, 0, -1}), sun({1, 0, 0}), point({1, -4, 3}), point({4, 4, 1.5}),
+                                  point({1, -1, 1.5})};
+  for (const Vec3& eye : {Vec3(5, -6, 4), Vec3(1, -6, 3), Vec3(6, -1, 1.5)}) {
+    const Camera camera = looking(eye, {0.3, 0.1, 0.5});
+    const Agreement a = compareWithOracle(shoot(s, camera, lights), camera, lights);
+    EXPECT_GT(a.clear, 5000u);
+    EXPECT_EQ(a.wrong, 0u);
+  }
+}
+
 TEST(RayTraced, IsTheSameInAnyNumberOfThreads) {
   const auto s =
       scene::withGround(shapes::scene({shapes::knot({0, 0, 2}, 1.5, 0.3, 120, 16),
