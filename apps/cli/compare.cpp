@@ -137,6 +137,7 @@ Run addCompare(CLI::App& app) {
   addCameraOptions(app, options->view);
   addLightOptions(app, options->view);
   addGroundOption(app, options->view);
+  addSilhouetteOption(app, options->view);
   return [options](const Console& console) { return run(*options, console); };
 }
 

@@ -65,4 +65,9 @@ void addGroundOption(CLI::App& app, ViewOptions& options) {
            parseGround, kPicture);
 }
 
+void addSilhouetteOption(CLI::App& app, ViewOptions& options) {
+  addValue(app, "--silhouette", "NAME|auto", "How shadow volumes find their silhouettes; changes times, no pixel (default auto)",
+           options.silhouettes, parseFinder, kPicture);
+}
+
 }  // namespace umbrage::cli

@@ -8,6 +8,7 @@
 #include "parse.hpp"
 #include "umbrage/base/angle.hpp"
 #include "umbrage/scene/scene.hpp"
+#include "umbrage/shadow/finders/finder.hpp"
 
 namespace umbrage::cli {
 
@@ -42,16 +43,20 @@ struct ViewOptions {
   double ambient = 0.25;
   double shadowRoom = 0.2;  ///< how far around the scene its ground is framed too, in heights of the scene
   int antialias = 1;        ///< the picture is drawn this many times as wide and high, and averaged
+  shadow::FinderKind silhouettes = shadow::FinderKind::automatic;
 };
 void addCameraOptions(CLI::App& app, ViewOptions& options);
 void addLightOptions(CLI::App& app, ViewOptions& options);
 void addGroundOption(CLI::App& app, ViewOptions& options);
+/// --silhouette, for commands that draw with techniques of shadow volumes.
+void addSilhouetteOption(CLI::App& app, ViewOptions& options);
 
 /// The scene as it is drawn, and why it is looked at and lit so.
 struct View {
   scene::Scene scene;
   scene::Camera camera;
   std::vector<scene::Light> lights;
+  shadow::FinderKind silhouettes = shadow::FinderKind::automatic;
   std::string cameraReason;
   std::string lightReason;
 };

@@ -199,6 +199,13 @@ Result<double> parseUnit(std::string_view text) {
   return refuse(text, "one of m, cm, mm, ft, in");
 }
 
+Result<shadow::FinderKind> parseFinder(std::string_view text) {
+  if (const auto kind = shadow::finderNamed(text)) return *kind;
+  std::vector<std::string_view> names;
+  for (const shadow::FinderKind kind : shadow::finderKinds()) names.push_back(shadow::name(kind));
+  return refuse(text, fmt::format("one of {}", fmt::join(names, ", ")));
+}
+
 Result<std::vector<std::string>> parseWords(std::string_view text, const std::vector<std::string>& allowed) {
   std::vector<std::string> words;
   for (const auto word : split(text, ',')) {

@@ -9,6 +9,7 @@
 #include "umbrage/math/vec.hpp"
 #include "umbrage/scene/camera.hpp"
 #include "umbrage/scene/light.hpp"
+#include "umbrage/shadow/finders/finder.hpp"
 
 // The words of the command line as values. Every function takes the whole word or refuses it; its error
 // (ErrorCode::usage) says what was expected, without the option's name, which the caller puts before it.
@@ -52,6 +53,9 @@ struct Size {
 /// Words between commas, each one of `allowed`; a word given twice counts once.
 [[nodiscard]] Result<std::vector<std::string>> parseWords(std::string_view text,
                                                           const std::vector<std::string>& allowed);
+
+/// A name of a silhouette finder, or "auto".
+[[nodiscard]] Result<shadow::FinderKind> parseFinder(std::string_view text);
 
 /// The pieces between separators; one more than there are separators.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);

@@ -141,6 +141,7 @@ Run addRender(CLI::App& app) {
   addCameraOptions(app, options->view);
   addLightOptions(app, options->view);
   addGroundOption(app, options->view);
+  addSilhouetteOption(app, options->view);
   return [options](const Console& console) { return run(*options, console); };
 }
 

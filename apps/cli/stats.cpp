@@ -31,6 +31,7 @@ Json lightJson(const scene::Light& light, const shadow::LightStats& stats, const
           {"reason", stats.reason},
           {"casters_by_zfail", stats.castersByZFail},
           {"eye_count", stats.eyeCount},
+          {"silhouette_finder", stats.finder.empty() ? Json(nullptr) : Json(stats.finder)},
           {"edges_tested", stats.edgesTested},
           {"silhouette_edges", stats.silhouetteEdges},
           {"volume_triangles", stats.volumeTriangles},
@@ -85,6 +86,9 @@ std::string statsText(const Stats& stats) {
   text += fmt::format("lights     {} ({})\n", stats.view.lights.size(), stats.view.lightReason);
   text += fmt::format("casters    {} triangles, {} edges\n", stats.geometry.casters.triangles.size(),
                       stats.geometry.casters.edges.size());
+  for (const auto& light : stats.drawing.shading.stats.lights)
+    if (!light.finder.empty())
+      text += fmt::format("silhouette {} of {} tested edges ({})\n", light.silhouetteEdges, light.edgesTested, light.finder);
   for (const auto& phase : stats.phases) text += fmt::format("{:<10} {:8.1f} ms\n", phase.name, phase.milliseconds);
   for (const auto& phase : stats.drawing.shading.stats.phases)
     text += fmt::format("  {:<18} {:8.1f} ms\n", phase.name, phase.milliseconds);

@@ -40,15 +40,16 @@ shadow::LayerGroups groupsFor(const shadow::CasterSet& casters, const shadow::Si
 
 }  // namespace
 
-LightVolume prepareVolume(const shadow::CasterSet& casters, const Vec4& light, const Vec3& eye, Counting counting,
+LightVolume prepareVolume(const shadow::SilhouetteFinder& finder, const Vec4& light, const Vec3& eye, Counting counting,
                           shadow::LightStats& stats, const PhaseEnd& ended) {
+  const shadow::CasterSet& casters = finder.casters();
   const auto end = [&](const char* phase) {
     if (ended) ended(phase);
   };
   LightVolume out;
   out.light = light;
   out.counting = counting;
-  const shadow::Silhouette whole = shadow::findSilhouette(casters, light);
+  const shadow::Silhouette whole = finder.silhouette(light);
   end("silhouette");
   const shadow::LayerGroups groups = groupsFor(casters, whole);
   end("layers");
@@ -71,6 +72,7 @@ LightVolume prepareVolume(const shadow::CasterSet& casters, const Vec4& light, c
     out.groups.push_back(group);
   }
   stats.method = counting == Counting::zPass ? "zpass" : "zfail";
+  stats.finder = whole.finder;
   stats.edgesTested = whole.edgesTested;
   stats.silhouetteEdges = whole.edges.size();
   stats.volumeTriangles = out.indices.size() / 3;

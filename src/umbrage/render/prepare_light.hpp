@@ -40,8 +40,8 @@ using PhaseEnd = std::function<void(const char*)>;
 /// The count of a group is below these: of the only group, or of one among several.
 inline constexpr int kWholeStencil = 255, kSharedStencil = 127;
 
-/// `light` and `eye` are relative to casters.origin. Fills all of `stats` but its reason.
-[[nodiscard]] LightVolume prepareVolume(const shadow::CasterSet& casters, const Vec4& light, const Vec3& eye,
+/// `light` and `eye` are relative to the origin of the finder's casters. Fills all of `stats` but its reason.
+[[nodiscard]] LightVolume prepareVolume(const shadow::SilhouetteFinder& finder, const Vec4& light, const Vec3& eye,
                                         Counting counting, shadow::LightStats& stats, const PhaseEnd& ended = {});
 
 /// What a plan needs to know of it.

@@ -15,7 +15,8 @@ Result<StencilShadows> StencilShadows::make(shadow::CasterSet casters) {
 
 Result<void> StencilShadows::setCasters(shadow::CasterSet casters) {
   if (auto done = setStorage(positions_, std::as_bytes(std::span(casters.positions)), "positions"); !done) return done;
-  casters_ = std::move(casters);
+  finder_ = shadow::makeFinder(shadow::FinderKind::automatic,
+                               std::make_shared<const shadow::CasterSet>(std::move(casters)));
   return {};
 }
 
@@ -29,20 +30,21 @@ Result<shadow::LightStats> StencilShadows::mark(const scene::Light& light, const
   placement.frontIsClockwise = mirrors(view);
 
   shadow::LightStats stats;
-  const Vec4 homogeneous = scene::homogeneous(light, casters_.origin);
+  const shadow::CasterSet& casters = finder_->casters();
+  const Vec4 homogeneous = scene::homogeneous(light, casters.origin);
   // A ray may enter a volume through a caster that the depth buffer does not hold; without caps nobody would count that.
   const Counting counting = options.castersInDepth ? options.counting : Counting::zFail;
-  const LightVolume volume = prepareVolume(casters_, homogeneous, view.eye - casters_.origin, counting, stats);
+  const LightVolume volume = prepareVolume(*finder_, homogeneous, view.eye - casters.origin, counting, stats);
   stats.reason = options.castersInDepth ? "chosen by the host" : "the casters are not in the depth buffer";
   GpuLight& gpu = light_.front();
   for (const auto& done :
-       {gpu.view.setOne(viewBlock(view, casters_.origin, homogeneous)), gpu.volume.setAll(volume.indices)})
+       {gpu.view.setOne(viewBlock(view, casters.origin, homogeneous)), gpu.volume.setAll(volume.indices)})
     if (!done) return tl::unexpected(done.error());
   gpu.groups = volume.groups;
 
   const LightPlan plan{.groups = planGroups(volume),
                        .compareCaps = !options.castersInDepth,
-                       .volumeArea = volumeArea(view, casters_.bounds, {}, homogeneous, casters_.origin, placement),
+                       .volumeArea = volumeArea(view, casters.bounds, {}, homogeneous, casters.origin, placement),
                        .litArea = litArea(view, light, placement)};
   run(scope, planPasses(placement, view.reversed, {plan}, Product::hostStencil),
       {.programs = programs_, .positions = positions_, .lights = light_});

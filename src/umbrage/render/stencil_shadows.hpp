@@ -42,7 +42,7 @@ class StencilShadows {
 
  private:
   StencilShadows() = default;
-  shadow::CasterSet casters_;
+  std::unique_ptr<shadow::SilhouetteFinder> finder_;  ///< of the casters
   gl::Buffer positions_;
   Programs programs_;
   std::vector<GpuLight> light_;

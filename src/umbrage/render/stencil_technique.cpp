@@ -70,6 +70,7 @@ class StencilTechnique final : public GlTechnique {
     if (own_ == nullptr) own_ = std::make_unique<Own>();
     own_->scene.emplace(std::move(*scene));
     geometry_ = std::move(geometry);
+    useFinder(shadow::FinderKind::automatic);
     return {};
   }
 
@@ -117,6 +118,11 @@ class StencilTechnique final : public GlTechnique {
     std::vector<GpuLight> lights;
   };
 
+  void useFinder(shadow::FinderKind kind) {
+    if (finder_ != nullptr && finder_->kind() == kind && &finder_->casters() == &geometry_->casters) return;
+    finder_ = shadow::makeFinder(kind, {geometry_, &geometry_->casters});
+  }
+
   static Result<void> resize(std::optional<GpuFrame>& frame, const scene::Camera& camera) {
     if (frame && frame->width() == camera.width && frame->height() == camera.height) return {};
     frame.reset();
@@ -138,6 +144,7 @@ class StencilTechnique final : public GlTechnique {
       return done;
     if (ended) ended("facing");
 
+    useFinder(frame.silhouettes);
     std::vector<LightPlan> plans;
     while (own_->lights.size() < frame.lights.size()) own_->lights.emplace_back();
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
@@ -181,7 +188,7 @@ class StencilTechnique final : public GlTechnique {
     Box3 counted = receivers;
     counted.add(view.eye - origin);
     const Vec4 homogeneous = scene::homogeneous(light, origin);
-    const LightVolume volume = prepareVolume(casters, homogeneous, view.eye - origin, counting_, stats, ended);
+    const LightVolume volume = prepareVolume(*finder_, homogeneous, view.eye - origin, counting_, stats, ended);
     stats.reason = reasonFor(counting_, stats, volume.groups.size());
     const auto facing =
         packBits(shadow::visibleSideFacesLight(geometry_->surfaces, Vec4(view.eye - origin, 1.0), homogeneous));
@@ -221,6 +228,7 @@ class StencilTechnique final : public GlTechnique {
   Counting counting_;
   std::shared_ptr<gl::Context> context_;
   std::shared_ptr<const shadow::Geometry> geometry_;
+  std::unique_ptr<shadow::SilhouetteFinder> finder_;
   std::unique_ptr<Own> own_;
 };
 

@@ -27,10 +27,14 @@ void leaveOutAvertedFaces(const CasterSet& casters, std::vector<std::int8_t>& si
 
 }  // namespace
 
-Silhouette findSilhouette(const CasterSet& casters, const Vec4& light, const SilhouetteOptions& options) {
+std::vector<std::int8_t> findSides(const CasterSet& casters, const Vec4& light, const SilhouetteOptions& options) {
   std::vector<std::int8_t> side = sidesOf(casters, light);
   if (!options.countEverySurface) leaveOutAvertedFaces(casters, side);
-  return silhouetteOf(casters, light, std::move(side));
+  return side;
+}
+
+Silhouette findSilhouette(const CasterSet& casters, const Vec4& light, const SilhouetteOptions& options) {
+  return silhouetteOf(casters, light, findSides(casters, light, options));
 }
 
 Silhouette silhouetteOf(const CasterSet& casters, const Vec4& light, std::vector<std::int8_t> side) {

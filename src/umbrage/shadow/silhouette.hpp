@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "umbrage/shadow/caster_set.hpp"
@@ -21,6 +22,7 @@ struct Silhouette {
   std::vector<std::int8_t> side;
   std::vector<SilhouetteEdge> edges;   ///< in the order of CasterSet::edges
   std::size_t edgesTested = 0;
+  std::string_view finder = "brute_force";  ///< who found it, as name(FinderKind) spells it; static
 };
 
 struct SilhouetteOptions {
@@ -35,6 +37,9 @@ struct SilhouetteOptions {
 /// topology and whatever rounding did to a sign.
 /// Source: Aldridge and Woods, robust geometry-independent shadow volumes, 2004; Kim, Kim and Turk, 2008.
 [[nodiscard]] Silhouette findSilhouette(const CasterSet& casters, const Vec4& light, const SilhouetteOptions& options = {});
+
+/// Silhouette::side alone: the side of every triangle that counts.
+[[nodiscard]] std::vector<std::int8_t> findSides(const CasterSet& casters, const Vec4& light, const SilhouetteOptions& options = {});
 
 /// The silhouette of the triangles whose `side` is not 0, which must be that of lightSide.
 [[nodiscard]] Silhouette silhouetteOf(const CasterSet& casters, const Vec4& light, std::vector<std::int8_t> side);

@@ -11,6 +11,7 @@
 #include "umbrage/scene/light.hpp"
 #include "umbrage/scene/surfaces.hpp"
 #include "umbrage/shadow/caster_set.hpp"
+#include "umbrage/shadow/finders/finder.hpp"
 #include "umbrage/shadow/light_mask.hpp"
 #include "umbrage/shadow/surface_buffer.hpp"
 
@@ -42,6 +43,7 @@ struct Geometry {
 struct Frame {
   scene::Camera camera;
   std::span<const scene::Light> lights;
+  FinderKind silhouettes = FinderKind::automatic;  ///< who finds them, where the technique needs silhouettes; changes no pixel
 };
 
 struct PhaseTime {
@@ -58,6 +60,7 @@ struct LightStats {
   std::size_t volumeTriangles = 0;
   std::size_t castersByZFail = 0;  ///< components that fell back from z-pass
   int eyeCount = 0;
+  std::string finder;  ///< who found the silhouette; empty when none was needed
 };
 
 struct FrameStats {

@@ -1,0 +1,147 @@
+#include "umbrage/shadow/finders/dual_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "umbrage/base/check.hpp"
+
+namespace umbrage::shadow {
+namespace {
+
+constexpr double kLeastSteady = 0x1p-22;  // see kDoubt
+
+double dot(const DualPoint& p, const std::array<double, 4>& along) {
+  return double(p[0]) * along[0] + double(p[1]) * along[1] + double(p[2]) * along[2] + double(p[3]) * along[3];
+}
+
+// Directions that no model is built along: they decide which of the two equivalent forms of a segment is kept, so that like
+// segments lie near each other whatever the order of their corners.
+constexpr std::array<double, 4> kUp{0.4327, 0.3119, 0.8461, 0.0813}, kAcross{0.7213, -0.6301, -0.1931, 0.2217};
+
+DualEdge canonical(DualPoint p, DualPoint q, std::uint32_t tag) {
+  if (dot(p, kUp) + dot(q, kUp) < 0.0) {
+    p = -p, q = -q;
+    tag ^= kTagNegative;
+  }
+  if (dot(p, kAcross) < dot(q, kAcross)) {
+    std::swap(p, q);
+    tag ^= kTagNegative;
+  }
+  return {{p, q}, tag};
+}
+
+DualPoint used(const std::vector<DualPlane>& planes, const CasterEdgeUse& use) {
+  return use.sign > 0 ? planes[use.triangle].point : -planes[use.triangle].point;
+}
+
+class Splitter {
+ public:
+  Splitter(const CasterSet& casters, const std::vector<DualPlane>& planes, DualEdges& out)
+      : casters_(casters), planes_(planes), out_(out) {}
+
+  void split(std::uint32_t e) {
+    const CasterEdge& edge = casters_.edges[e];
+    const auto uses = std::span(casters_.uses).subspan(edge.begin, edge.end - edge.begin);
+    const bool steady =
+        std::all_of(uses.begin(), uses.end(), [&](const CasterEdgeUse& use) { return planes_[use.triangle].steady; });
+    if (!steady)
+      out_.always.push_back(e);
+    else if (uses.size() == 1)
+      addSingle(uses[0], e);
+    else if (uses.size() == 2)
+      addPairOrSolid(uses[0], uses[1], e);
+    else
+      addMany(uses, e | kTagPartial);
+  }
+
+ private:
+  void addSingle(const CasterEdgeUse& use, std::uint32_t tag) {
+    const DualPoint p = used(planes_, use);
+    out_.segments.push_back(canonical(p, -p, tag | kTagSingle));
+  }
+
+  void addPair(const CasterEdgeUse& a, const CasterEdgeUse& b, std::uint32_t tag) {
+    out_.segments.push_back(canonical(used(planes_, a), -used(planes_, b), tag));
+  }
+
+  void addPairOrSolid(const CasterEdgeUse& a, const CasterEdgeUse& b, std::uint32_t e) {
+    const int outwardA = a.sign * casters_.outward[a.triangle], outwardB = b.sign * casters_.outward[b.triangle];
+    if (outwardA == 0)
+      addPair(a, b, e);
+    else if (outwardA == -outwardB)
+      addPair(a, b, e | kTagConvex);
+    else
+      out_.always.push_back(e);  // folded, within the rounding that a solid may have
+  }
+
+  // Whichever face lies nearest to being the continuation of the first.
+  void addMany(std::span<const CasterEdgeUse> uses, std::uint32_t tag) {
+    std::vector<CasterEdgeUse> left(uses.begin(), uses.end());
+    while (left.size() > 1) {
+      const CasterEdgeUse first = left.back();
+      left.pop_back();
+      const DualPoint p = used(planes_, first);
+      const auto distance = [&](const CasterEdgeUse& use) {
+        const DualPoint q = used(planes_, use);
+        double square = 0.0;
+        for (int k = 0; k < 4; ++k) square += double(p[k] + q[k]) * double(p[k] + q[k]);
+        return square;
+      };
+      const auto mate = left.size() > kManyFaces
+                            ? left.end() - 1
+                            : std::min_element(left.begin(), left.end(),
+                                               [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+      addPair(first, *mate, tag);
+      left.erase(mate);
+    }
+    if (!left.empty()) addSingle(left.front(), tag);
+  }
+
+  static constexpr std::size_t kManyFaces = 64;
+
+  const CasterSet& casters_;
+  const std::vector<DualPlane>& planes_;
+  DualEdges& out_;
+};
+
+}  // namespace
+
+DualFrame dualFrame(const CasterSet& casters) {
+  return {casters.bounds.centre(), casters.bounds.radius() * (1.0 + 0x1p-40)};
+}
+
+DualPoint dualLight(const DualFrame& frame, const Vec4& light) {
+  const Vec3 from = Vec3(light) - frame.centre * light.w;
+  const double reach = frame.radius * light.w, size = glm::length(from) + reach;
+  // Beyond these, squares and products over- or underflow.
+  if (!(size > 1e-100 && size < 1e100)) return {};
+  return {float(from.x / size), float(from.y / size), float(from.z / size), float(reach / size)};
+}
+
+DualPlane dualPlane(const CasterSet& casters, const DualFrame& frame, std::uint32_t triangle) {
+  const Vec3 a = casters.corner(triangle, 0);
+  const Vec3 ab = casters.corner(triangle, 1) - a, ac = casters.corner(triangle, 2) - a;
+  const Vec3 normal = glm::cross(ab, ac), p = glm::abs(ab), q = glm::abs(ac);
+  const Vec3 uncancelled(p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x);
+  const double length = glm::length(normal);
+  if (!(length > kLeastSteady * glm::length(uncancelled)) || !(length > 1e-100)) return {};
+  const Vec3 n = normal / length;
+  const double d = glm::dot(n, frame.centre - a) / frame.radius;
+  return {{float(n.x), float(n.y), float(n.z), float(d)}, true};
+}
+
+DualEdges dualEdges(const CasterSet& casters) {
+  UMBRAGE_CHECK(casters.edges.size() <= kTagEdge, "too many edges for the dual space");
+  DualEdges dual;
+  dual.frame = dualFrame(casters);
+  std::vector<DualPlane> planes;
+  planes.reserve(casters.triangles.size());
+  for (std::uint32_t t = 0; t < casters.triangles.size(); ++t) planes.push_back(dualPlane(casters, dual.frame, t));
+  dual.segments.reserve(casters.edges.size());
+  Splitter splitter(casters, planes, dual);
+  for (std::uint32_t e = 0; e < casters.edges.size(); ++e) splitter.split(e);
+  return dual;
+}
+
+}  // namespace umbrage::shadow

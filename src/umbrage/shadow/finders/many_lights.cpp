@@ -1,0 +1,356 @@
+// One word holds the side of one triangle towards 64 lights. A triangle's plane is multiplied with all of them, several at a time; then
+// an edge is on the silhouette of those lights in which the words of its two triangles agree (as the edge orients them): a single
+// operation tells for 64. Words of 64 edges are turned, as a square of bits, into words of 64 lights, and each light takes its
+// edges from its own words, in their order, so that nothing need be sorted.
+#include "umbrage/shadow/finders/many_lights.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <numeric>
+#include <utility>
+
+#include "umbrage/shadow/finders/dual_space.hpp"
+#include "umbrage/shadow/finders/simd.hpp"
+#include "umbrage/shadow/finders/threads.hpp"
+
+#ifdef UMBRAGE_HAVE_AVX2
+#include <immintrin.h>
+#endif
+
+namespace umbrage::shadow {
+namespace {
+
+constexpr std::size_t kEdges = 64;  // whose words are turned together
+constexpr std::size_t kDense = 32;  // with more than one edge in so many on the silhouette, squares of bits are turned
+constexpr std::size_t kSampled = 16;           // one block in so many is counted to know how much will be found
+constexpr std::uint32_t kNegative = 1u << 31;  // in either use: the triangle is used with sign -1
+constexpr std::uint32_t kHalf = 1u << 30;      // in the first: one face, named twice; in the second: of a convex solid
+constexpr std::uint32_t kTriangle = kHalf - 1;
+
+struct alignas(32) Lights {
+  float axis[4][64];
+};
+
+struct Sides {
+  std::uint64_t positive, doubtful;
+};
+
+Sides plainSides(const DualPoint& p, const Lights& l) {
+  Sides sides{};
+  for (int i = 0; i < 64; ++i) {
+    const float value = ((p[0] * l.axis[0][i] + p[1] * l.axis[1][i]) + p[2] * l.axis[2][i]) + p[3] * l.axis[3][i];
+    sides.positive |= std::uint64_t{value > kDoubt} << i;
+    sides.doubtful |= std::uint64_t{value <= kDoubt && value >= -kDoubt} << i;
+  }
+  return sides;
+}
+
+#ifdef UMBRAGE_HAVE_AVX2
+[[gnu::target("avx2")]] Sides wideSides(const DualPoint& p, const Lights& l) {
+  const __m256 p0 = _mm256_set1_ps(p[0]), p1 = _mm256_set1_ps(p[1]), p2 = _mm256_set1_ps(p[2]),
+               p3 = _mm256_set1_ps(p[3]);
+  const __m256 doubt = _mm256_set1_ps(kDoubt), minusDoubt = _mm256_set1_ps(-kDoubt);
+  Sides sides{};
+  for (int i = 0; i < 64; i += kLanes) {
+    __m256 value = _mm256_mul_ps(p0, _mm256_load_ps(l.axis[0] + i));
+    value = _mm256_add_ps(value, _mm256_mul_ps(p1, _mm256_load_ps(l.axis[1] + i)));
+    value = _mm256_add_ps(value, _mm256_mul_ps(p2, _mm256_load_ps(l.axis[2] + i)));
+    value = _mm256_add_ps(value, _mm256_mul_ps(p3, _mm256_load_ps(l.axis[3] + i)));
+    const __m256 positive = _mm256_cmp_ps(value, doubt, _CMP_GT_OQ);
+    const __m256 sure = _mm256_or_ps(positive, _mm256_cmp_ps(value, minusDoubt, _CMP_LT_OQ));
+    sides.positive |= std::uint64_t{static_cast<std::uint32_t>(_mm256_movemask_ps(positive))} << i;
+    sides.doubtful |= std::uint64_t{~static_cast<std::uint32_t>(_mm256_movemask_ps(sure)) & 0xffu} << i;
+  }
+  return sides;
+}
+#endif
+
+// A square of bits about its diagonal: bit j of word i becomes bit i of word j.
+[[gnu::always_inline]] inline void transposeSquare(std::array<std::uint64_t, 64>& square) {
+  std::uint64_t mask = 0x00000000ffffffffu;
+  for (unsigned size = 32; size != 0; size >>= 1, mask ^= mask << size) {
+    for (unsigned block = 0; block < 64; block += 2 * size) {
+      for (unsigned i = block; i < block + size; ++i) {
+        const std::uint64_t swapped = ((square[i] >> size) ^ square[i + size]) & mask;
+        square[i] ^= swapped << size;
+        square[i + size] ^= swapped;
+      }
+    }
+  }
+}
+void plainTranspose(std::array<std::uint64_t, 64>& square) { transposeSquare(square); }
+#ifdef UMBRAGE_HAVE_AVX2
+[[gnu::target("avx2")]] void wideTranspose(std::array<std::uint64_t, 64>& square) { transposeSquare(square); }
+#endif
+
+template <class Fn>
+void forEachBit(std::uint64_t bits, const Fn& fn) {
+  for (; bits != 0; bits &= bits - 1) fn(static_cast<std::size_t>(std::countr_zero(bits)));
+}
+
+std::uint64_t flip(std::uint32_t use) { return (use & kNegative) != 0 ? ~std::uint64_t{0} : 0; }
+
+}  // namespace
+
+// For one light, 64 edges.
+struct ManyLights::LightWords {
+  std::uint64_t crossed, positive;
+};
+
+struct ManyLights::Turned {
+  std::vector<LightWords> words;    ///< light by light
+  std::vector<std::uint64_t> half;  ///< a bit an edge: its multiplicity is 1, not 2
+};
+
+// What is gathered for up to 64 lights.
+struct ManyLights::Group {
+  std::vector<Words> facing;  ///< per triangle
+  std::uint64_t live;
+  bool halveConvex;
+  Out out;
+  std::array<std::vector<std::uint32_t>, kGroup> doubtful;
+};
+
+// Of 64 edges from a first one on; a word an edge, a bit a light.
+struct ManyLights::Rows {
+  std::array<std::uint64_t, kEdges> crossed{}, positive{}, doubtful{};
+  std::uint64_t half = 0;         ///< a bit an edge: its multiplicity is 1, not 2
+  std::uint64_t anyDoubtful = 0;  ///< a bit a light
+  bool any = false;               ///< on a silhouette for certain
+};
+
+ManyLights::ManyLights(std::shared_ptr<const CasterSet> casters, const FinderOptions& options)
+    : casters_(std::move(casters)),
+      exact_(*casters_),
+      threads_(threadCount(options.threads)),
+      avx2_(options.vectorUnits && processorHasAvx2()) {
+  const DualFrame frame = dualFrame(*casters_);
+  centre_ = frame.centre, radius_ = frame.radius;
+  planes_.reserve(casters_->triangles.size());
+  for (std::uint32_t t = 0; t < casters_->triangles.size(); ++t)
+    planes_.push_back(dualPlane(*casters_, frame, t).point);
+  const auto use = [&](std::uint32_t u) {
+    return casters_->uses[u].triangle | (casters_->uses[u].sign < 0 ? kNegative : 0u);
+  };
+  const auto outward = [&](std::uint32_t u) {
+    return casters_->uses[u].sign * casters_->outward[casters_->uses[u].triangle];
+  };
+  uses_.reserve(casters_->edges.size());
+  for (std::uint32_t e = 0; e < casters_->edges.size(); ++e) {
+    const CasterEdge& edge = casters_->edges[e];
+    const std::uint32_t first = edge.begin, last = edge.end - 1;
+    uses_.push_back({use(first), use(last)});
+    if (last > first + 1 || (last == first + 1 && outward(first) != -outward(last)))
+      special_.push_back(e);
+    else if (last == first)
+      uses_.back()[0] |= kHalf;
+    else if (outward(first) != 0)
+      uses_.back()[1] |= kHalf;
+  }
+}
+
+std::vector<ManyLights::Words> ManyLights::facing(std::span<const Vec4> lights) const {
+  Lights wide{};
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const DualPoint u = dualLight({centre_, radius_}, lights[i]);
+    for (int k = 0; k < 4; ++k) wide.axis[k][i] = u[k];
+  }
+  std::vector<Words> words;
+  words.reserve(planes_.size());
+  for (const DualPoint& plane : planes_) {
+#ifdef UMBRAGE_HAVE_AVX2
+    const Sides s = avx2_ ? wideSides(plane, wide) : plainSides(plane, wide);
+#else
+    const Sides s = plainSides(plane, wide);
+#endif
+    words.push_back({s.positive, s.doubtful});
+  }
+  return words;
+}
+
+ManyLights::Rows ManyLights::rows(std::size_t firstEdge, const Group& group) const {
+  Rows rows;
+  const std::size_t count = std::min(kEdges, uses_.size() - firstEdge);
+  auto special = std::lower_bound(special_.begin(), special_.end(), firstEdge);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (special != special_.end() && *special == firstEdge + i) {
+      ++special;
+      continue;
+    }
+    const auto [a, b] = uses_[firstEdge + i];
+    const Words &first = group.facing[a & kTriangle], &second = group.facing[b & kTriangle];
+    rows.doubtful[i] = (first.doubtful | second.doubtful) & group.live;
+    rows.positive[i] = first.positive ^ flip(a);
+    rows.crossed[i] = ~(rows.positive[i] ^ second.positive ^ flip(b)) & group.live & ~rows.doubtful[i];
+    rows.half |= std::uint64_t{(a & kHalf) != 0 || (group.halveConvex && (b & kHalf) != 0)} << i;
+    rows.anyDoubtful |= rows.doubtful[i];
+    rows.any |= rows.crossed[i] != 0;
+  }
+  return rows;
+}
+
+// How many edges each light will find, from a sample.
+std::vector<std::size_t> ManyLights::expected(const Group& group) const {
+  std::vector<std::size_t> found(group.out.size(), 0);
+  for (std::size_t e = 0; e < uses_.size(); e += kEdges * kSampled)
+    for (const std::uint64_t word : rows(e, group).crossed)
+      forEachBit(word, [&](std::size_t i) { found[i] += kSampled; });
+  return found;
+}
+
+void ManyLights::bookDoubtful(std::size_t firstEdge, const Rows& rows, Group& group) const {
+  if (rows.anyDoubtful == 0) return;
+  for (std::size_t i = 0; i < kEdges; ++i)
+    forEachBit(rows.doubtful[i],
+               [&](std::size_t light) { group.doubtful[light].push_back(static_cast<std::uint32_t>(firstEdge + i)); });
+}
+
+void ManyLights::pickEdges(Group& group) const {
+  for (std::size_t e = 0; e < uses_.size(); e += kEdges) {
+    const Rows r = rows(e, group);
+    bookDoubtful(e, r, group);
+    if (!r.any) continue;
+    for (std::size_t i = 0; i < kEdges; ++i) {
+      const std::int32_t size = (r.half >> i & 1) != 0 ? 1 : 2;
+      forEachBit(r.crossed[i], [&](std::size_t light) {
+        group.out[light].edges.push_back(
+            {static_cast<std::uint32_t>(e + i), (r.positive[i] >> light & 1) != 0 ? size : -size});
+      });
+    }
+  }
+}
+
+ManyLights::Turned ManyLights::turn(Group& group) const {
+  const std::size_t blocks = (uses_.size() + kEdges - 1) / kEdges, lights = group.out.size();
+  Turned turned{std::vector<LightWords>(blocks * lights), std::vector<std::uint64_t>(blocks)};
+  for (std::size_t b = 0; b < blocks; ++b) {
+    Rows r = rows(b * kEdges, group);
+    bookDoubtful(b * kEdges, r, group);
+    turned.half[b] = r.half;
+    if (!r.any) continue;
+#ifdef UMBRAGE_HAVE_AVX2
+    const auto transpose = avx2_ ? wideTranspose : plainTranspose;
+#else
+    const auto transpose = plainTranspose;
+#endif
+    transpose(r.crossed);
+    transpose(r.positive);
+    for (std::size_t light = 0; light < lights; ++light)
+      turned.words[light * blocks + b] = {r.crossed[light], r.positive[light]};
+  }
+  return turned;
+}
+
+void ManyLights::takeTurned(const Turned& turned, std::size_t light, std::vector<SignedEdge>& edges) const {
+  const std::size_t blocks = turned.half.size();
+  const auto words = std::span(turned.words).subspan(light * blocks, blocks);
+  std::size_t count = 0;
+  for (const LightWords& word : words) count += static_cast<std::size_t>(std::popcount(word.crossed));
+  edges.resize(count);
+  SignedEdge* next = edges.data();
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const std::uint64_t half = turned.half[b], positive = words[b].positive;
+    forEachBit(words[b].crossed, [&](std::size_t i) {
+      const std::int32_t size = 2 - static_cast<std::int32_t>(half >> i & 1),
+                         sign = static_cast<std::int32_t>(positive >> i & 1) * 2 - 1;
+      *next++ = {static_cast<std::uint32_t>(b * kEdges + i), sign * size};
+    });
+  }
+}
+
+// Edges of more than two faces, and folded ones of solids.
+void ManyLights::addManyFaced(Group& group) const {
+  for (const std::uint32_t e : special_) {
+    const CasterEdge& edge = casters_->edges[e];
+    const bool folded = edge.end - edge.begin == 2;
+    forEachBit(group.live, [&](std::size_t i) {
+      std::int32_t sum = 0;
+      bool doubtful = folded;
+      for (std::uint32_t u = edge.begin; u < edge.end && !doubtful; ++u) {
+        const Words& words = group.facing[casters_->uses[u].triangle];
+        doubtful = (words.doubtful >> i & 1) != 0;
+        sum += (words.positive >> i & 1) != 0 ? casters_->uses[u].sign : -casters_->uses[u].sign;
+      }
+      if (doubtful || sum != 0) group.doubtful[i].push_back(e);
+    });
+  }
+}
+
+void ManyLights::decideDoubtful(const Vec4& light, const SilhouetteOptions& options,
+                                std::vector<std::uint32_t>& doubtful, std::vector<SignedEdge>& edges) const {
+  if (doubtful.empty()) return;
+  const auto sure = static_cast<std::ptrdiff_t>(edges.size());
+  ExactEdges::Query exact(exact_, *casters_, light, options);
+  std::sort(doubtful.begin(), doubtful.end());
+  for (const std::uint32_t e : doubtful)
+    if (const std::int32_t m = exact.multiplicity(e); m != 0) edges.push_back({e, m});
+  std::inplace_merge(edges.begin(), edges.begin() + sure, edges.end(),
+                     [](const SignedEdge& a, const SignedEdge& b) { return a.edge < b.edge; });
+}
+
+template <class Done>
+void ManyLights::findGroup(std::span<const Vec4> lights, const SilhouetteOptions& options, Out out, bool keep,
+                           const Done& done) const {
+  for (FoundEdges& found : out) {
+    found.edges.clear();
+    found.tested = uses_.size();
+    found.answeredBy = FinderKind::bruteForceSimd;
+  }
+  const std::uint64_t live = ~std::uint64_t{0} >> (kGroup - lights.size());
+  Group group{facing(lights), live, !options.countEverySurface, out, {}};
+  addManyFaced(group);
+  const std::vector<std::size_t> found = expected(group);
+  const bool many = std::accumulate(found.begin(), found.end(), std::size_t{0}) > uses_.size() * lights.size() / kDense;
+  Turned turned;
+  if (many) {
+    turned = turn(group);
+  } else {
+    for (std::size_t i = 0; i < lights.size(); ++i) out[i].edges.reserve(found[i] * 9 / 8);
+    pickEdges(group);
+  }
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (many) takeTurned(turned, i, out[i].edges);
+    decideDoubtful(lights[i], options, group.doubtful[i], out[i].edges);
+    done(i);
+    // The memory is still in the cache.
+    if (many && !keep && i + 1 < lights.size()) out[i + 1].edges = std::exchange(out[i].edges, {});
+  }
+}
+
+// Calls work(begin, end) for groups of lights, in threads; what it returns lives through one thread.
+template <class Work>
+void ManyLights::inGroups(std::size_t lights, const Work& work) const {
+  const std::size_t groups =
+      std::max<std::size_t>((lights + kGroup - 1) / kGroup, std::min<std::size_t>(threads_, lights));
+  if (groups == 0) return;
+  std::atomic<std::size_t> next{0};
+  const auto parts = static_cast<unsigned>(std::min<std::size_t>(groups, threads_));
+  inParts(parts, 1, parts, [&](unsigned, std::size_t, std::size_t) {
+    std::vector<FoundEdges> buffer(kGroup);
+    for (std::size_t g = next++; g < groups; g = next++) work(lights * g / groups, lights * (g + 1) / groups, buffer);
+  });
+}
+
+std::vector<FoundEdges> ManyLights::find(std::span<const Vec4> lights, const SilhouetteOptions& options) const {
+  std::vector<FoundEdges> found(lights.size());
+  inGroups(lights.size(), [&](std::size_t begin, std::size_t end, std::vector<FoundEdges>&) {
+    findGroup(lights.subspan(begin, end - begin), options, std::span(found).subspan(begin, end - begin), true,
+              [](std::size_t) {});
+  });
+  return found;
+}
+
+void ManyLights::visit(std::span<const Vec4> lights, const Answer& answer, const SilhouetteOptions& options) const {
+  inGroups(lights.size(), [&](std::size_t begin, std::size_t end, std::vector<FoundEdges>& buffer) {
+    findGroup(lights.subspan(begin, end - begin), options, std::span(buffer).first(end - begin), false,
+              [&](std::size_t i) { answer(begin + i, buffer[i]); });
+  });
+}
+
+std::size_t ManyLights::memory() const {
+  return exact_.memory() + planes_.capacity() * sizeof(planes_[0]) + uses_.capacity() * sizeof(uses_[0]) +
+         special_.capacity() * sizeof(std::uint32_t);
+}
+
+}  // namespace umbrage::shadow

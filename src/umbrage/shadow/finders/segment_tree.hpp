@@ -1,0 +1,185 @@
+#pragma once
+
+#include <bit>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "umbrage/shadow/finders/collector.hpp"
+#include "umbrage/shadow/finders/spread.hpp"
+
+namespace umbrage::shadow {
+
+/// Boxes of `Axes` dimensions, eight beside each other: [low, high][axis][lane].
+template <int Axes>
+struct alignas(32) Boxes {
+  float bound[2][Axes][kLanes];
+};
+
+/// What is known of all segments in each of eight boxes, a bit a lane: not on the silhouette, or on it with known sign. Boxes in
+/// no mask are in doubt.
+struct NodeFate {
+  std::uint32_t skipped, falling, rising;
+};
+
+/// Segments packed for vector units under a tree of boxes without pointers: every 8 are a leaf, every 16 nodes a node.
+template <int Axes>
+class SegmentTree {
+ public:
+  static constexpr std::size_t kArity = 16;
+  using Point = std::array<float, Axes>;
+
+  SegmentTree() = default;
+  /// `coordinate(segment, k)`, k < OrderAxes: what brings like segments together. `extend(segment, add)` calls add(point) for each
+  /// point that a box around the segment must hold. Reorders the segments.
+  template <int OrderAxes, class Coordinate, class Extend>
+  static SegmentTree build(std::span<DualEdge> segments, unsigned threads, const Coordinate& coordinate,
+                           const Extend& extend) {
+    spread<OrderAxes>(segments, {kLanes, kArity}, coordinate, threads);
+    SegmentTree tree;
+    tree.pack(segments);
+    tree.bound(segments, extend);
+    return tree;
+  }
+
+  /// Adds what is on the silhouette to `out` and returns how many segments were tested. `judge(boxes)` is a NodeFate.
+  template <class Judge>
+  std::size_t find(const DualPoint& light, const Judge& judge, const TagReader& reader, bool avx2,
+                   Collector& out) const {
+    if (leaves_.empty()) return 0;
+    std::vector<std::uint32_t> doubtful;
+    visit(levels_.size() - 1, 0, judge, reader, doubtful, out);
+    return readLeaves(doubtful, light, reader, avx2, out);
+  }
+
+  [[nodiscard]] std::size_t memory() const {
+    std::size_t bytes = leaves_.capacity() * sizeof(SegmentBlock);
+    for (const auto& level : levels_) bytes += level.capacity() * sizeof(Boxes<Axes>);
+    return bytes;
+  }
+
+ private:
+  static constexpr std::size_t kBlocks = kArity / kLanes, kAhead = 6;
+
+  struct Box {
+    Point low, high;
+    Box() {
+      low.fill(std::numeric_limits<float>::max());
+      high.fill(std::numeric_limits<float>::lowest());
+    }
+    void add(const Point& p) {
+      for (std::size_t k = 0; k < Axes; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+    }
+  };
+
+  static Box load(const std::vector<Boxes<Axes>>& level, std::size_t i) {
+    Box box;
+    for (std::size_t k = 0; k < Axes; ++k) {
+      box.low[k] = level[i / kLanes].bound[0][k][i % kLanes];
+      box.high[k] = level[i / kLanes].bound[1][k][i % kLanes];
+    }
+    return box;
+  }
+  static void store(std::vector<Boxes<Axes>>& level, std::size_t i, const Box& box) {
+    for (std::size_t k = 0; k < Axes; ++k) {
+      level[i / kLanes].bound[0][k][i % kLanes] = box.low[k];
+      level[i / kLanes].bound[1][k][i % kLanes] = box.high[k];
+    }
+  }
+
+  void pack(std::span<const DualEdge> segments) {
+    segmentCount_ = segments.size();
+    leaves_.resize((segments.size() + kLanes - 1) / kLanes);
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      SegmentBlock& block = leaves_[i / kLanes];
+      for (int end = 0; end < 2; ++end)
+        for (int k = 0; k < 4; ++k) block.point[end][k][i % kLanes] = segments[i].point[end][k];
+      block.tag[i % kLanes] = segments[i].tag;
+    }
+  }
+
+  template <class Extend>
+  void bound(std::span<const DualEdge> segments, const Extend& extend) {
+    if (leaves_.empty()) return;
+    std::vector<Boxes<Axes>> level((leaves_.size() + kLanes - 1) / kLanes);
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+      Box box;
+      const std::size_t first = i * kLanes;
+      for (const DualEdge& s : segments.subspan(first, std::min<std::size_t>(kLanes, segments.size() - first)))
+        extend(s, [&](const Point& p) { box.add(p); });
+      store(level, i, box);
+    }
+    levels_.push_back(std::move(level));
+    for (std::size_t count = leaves_.size(); count > kArity;) {
+      const std::size_t nodes = (count + kArity - 1) / kArity;
+      std::vector<Boxes<Axes>> coarser((nodes + kLanes - 1) / kLanes);
+      for (std::size_t i = 0; i < nodes; ++i) {
+        Box box;
+        for (std::size_t child = i * kArity; child < std::min(count, (i + 1) * kArity); ++child) {
+          const Box part = load(levels_.back(), child);
+          box.add(part.low), box.add(part.high);
+        }
+        store(coarser, i, box);
+      }
+      levels_.push_back(std::move(coarser));
+      count = nodes;
+    }
+  }
+
+  // Leaves below one child of a node of that level.
+  [[nodiscard]] static std::size_t leavesBelow(std::size_t level) {
+    return std::size_t{1} << (level * static_cast<std::size_t>(std::countr_zero(kArity)));
+  }
+
+  template <class Judge>
+  void visit(std::size_t level, std::size_t node, const Judge& judge, const TagReader& reader,
+             std::vector<std::uint32_t>& doubtful, Collector& out) const {
+    const std::size_t below = leavesBelow(level), children = (leaves_.size() + below - 1) / below;
+    for (std::size_t b = node * kBlocks; b < node * kBlocks + kBlocks && b * kLanes < children; ++b) {
+      const std::uint32_t live = (1u << std::min<std::size_t>(kLanes, children - b * kLanes)) - 1;
+      const NodeFate fate = judge(levels_[level][b]);
+      const std::uint32_t crossed = (fate.falling | fate.rising) & live;
+      for (std::uint32_t bits = crossed; bits != 0; bits &= bits - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+        takeAll((b * kLanes + lane) * below, below, (fate.falling >> lane & 1) != 0, reader, out);
+      }
+      for (std::uint32_t bits = live & ~(fate.skipped | crossed); bits != 0; bits &= bits - 1) {
+        const std::size_t child = b * kLanes + static_cast<std::size_t>(std::countr_zero(bits));
+        if (level == 0)
+          doubtful.push_back(static_cast<std::uint32_t>(child));
+        else
+          visit(level - 1, child, judge, reader, doubtful, out);
+      }
+    }
+  }
+
+  void takeAll(std::size_t firstLeaf, std::size_t count, bool falling, const TagReader& reader, Collector& out) const {
+    for (std::size_t leaf = firstLeaf; leaf < std::min(firstLeaf + count, leaves_.size()); ++leaf)
+      for (std::size_t i = 0; i < lanesOf(leaf); ++i) reader.crossed(leaves_[leaf].tag[i], falling, out);
+  }
+
+  std::size_t readLeaves(std::span<const std::uint32_t> list, const DualPoint& light, const TagReader& reader,
+                         bool avx2, Collector& out) const {
+    std::size_t tested = 0;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (i + kAhead < list.size()) {
+        const char* next = reinterpret_cast<const char*>(&leaves_[list[i + kAhead]]);
+        for (std::size_t line = 0; line < sizeof(SegmentBlock); line += 64) __builtin_prefetch(next + line);
+      }
+      const SegmentBlock& block = leaves_[list[i]];
+      reader.read(block, laneSigns(block, light, avx2), (1u << lanesOf(list[i])) - 1, out);
+      tested += lanesOf(list[i]);
+    }
+    return tested;
+  }
+
+  [[nodiscard]] std::size_t lanesOf(std::size_t leaf) const {
+    return std::min<std::size_t>(kLanes, segmentCount_ - leaf * kLanes);
+  }
+
+  std::vector<SegmentBlock> leaves_;
+  std::vector<std::vector<Boxes<Axes>>> levels_;  ///< boxes of the children; levels_[0] bounds leaves
+  std::size_t segmentCount_ = 0;
+};
+
+}  // namespace umbrage::shadow
