@@ -69,6 +69,10 @@ void shadowRays(benchmark::State& state, View (*make)()) {
 UMBRAGE_SHADOW_RAYS(fromTheAir);
 UMBRAGE_SHADOW_RAYS(fromTheStreet);
 UMBRAGE_SHADOW_RAYS(knot);
+UMBRAGE_SHADOW_RAYS(cityAir);
+UMBRAGE_SHADOW_RAYS(cityStreet);
+UMBRAGE_SHADOW_RAYS(cityLamp);
+UMBRAGE_SHADOW_RAYS(groovedKnotView);
 
 }  // namespace
 }  // namespace umbrage::benchmarks

@@ -43,23 +43,24 @@ FacingPoints::FacingPoints(const scene::Surfaces& surfaces, const std::vector<Pl
   for (std::size_t k = 0; k < 8; ++k) step_.set(k, double(k & 3) * rays_.dx + double(k >> 2) * rays_.dy);
 }
 
-bool FacingPoints::place(const Seen8& seen, int x, int y, trace::SurfacePoints8& points) const {
-  if (std::all_of(seen.triangle.begin(), seen.triangle.end(), [](auto t) { return t == shadow::kNoTriangle; }))
-    return false;
-  const Faces faces = facesOf(seen);
-  points.active = litLanes(seen, faces);
+bool FacingPoints::place(const Seen8& seen, int x, int y, Faces& faces, trace::SurfacePoints8& points) const {
+  if (seen.triangle != faces.triangle) {
+    faces.triangle = seen.triangle;
+    lookAt(faces);
+    faces.lit = litLanes(faces);
+  }
+  points.active = faces.lit;
   if (points.active == 0) return false;
   placePoints(seen, faces, x, y, points);
   if (std::holds_alternative<scene::SpotLight>(light_.shape)) points.active = insideCone(points);
   return points.active != 0;
 }
 
-UMBRAGE_LANES FacingPoints::Faces FacingPoints::facesOf(const Seen8& seen) const {
-  Faces faces;
+UMBRAGE_LANES void FacingPoints::lookAt(Faces& faces) const {
   alignas(64) trace::Lanes offset;
   const std::size_t none = planes_.size() - 1;
   for (std::size_t k = 0; k < 8; ++k) {
-    const Plane& plane = planes_[std::min<std::size_t>(seen.triangle[k], none)];
+    const Plane& plane = planes_[std::min<std::size_t>(faces.triangle[k], none)];
     faces.normal.set(k, plane.normal);
     offset[k] = plane.offset;
   }
@@ -74,24 +75,23 @@ UMBRAGE_LANES FacingPoints::Faces FacingPoints::facesOf(const Seen8& seen) const
     faces.eyeHeight[k] = std::abs(eyeHeight);
     faces.lightHeight[k] = side * lightHeight;
   }
-  return faces;
 }
 
 // visibleSideFacesLight, told by the planes wherever they leave no doubt: it costs a fraction, and differs nowhere, since it
 // decides only heights of more than kSurely of the lengths they are computed from.
-UMBRAGE_LANES std::uint32_t FacingPoints::litLanes(const Seen8& seen, const Faces& faces) const {
+UMBRAGE_LANES std::uint32_t FacingPoints::litLanes(const Faces& faces) const {
   const double sureOfEye = sureOfEye_, sureOfLight = sureOfLight_;
   const std::uint32_t sure = trace::lanesWhere(
       [&](std::size_t k) { return faces.eyeHeight[k] > sureOfEye && std::abs(faces.lightHeight[k]) > sureOfLight; });
   const std::uint32_t lit = sure & trace::lanesWhere([&](std::size_t k) { return faces.lightHeight[k] > 0.0; });
-  return sure == 0xffu ? lit : lit | exactlyLit(seen, faces, ~sure);
+  return sure == 0xffu ? lit : lit | exactlyLit(faces, ~sure);
 }
 
-std::uint32_t FacingPoints::exactlyLit(const Seen8& seen, const Faces& faces, std::uint32_t lanes) const {
+std::uint32_t FacingPoints::exactlyLit(const Faces& faces, std::uint32_t lanes) const {
   std::uint32_t lit = 0, last = shadow::kNoTriangle;
   bool lastIsLit = false;
   for (std::size_t k = 0; k < 8; ++k) {
-    const std::uint32_t triangle = seen.triangle[k];
+    const std::uint32_t triangle = faces.triangle[k];
     if (!trace::hasLane(lanes, k) || triangle == shadow::kNoTriangle || faces.normal[k] == Vec3(0.0)) continue;
     if (triangle != last) lastIsLit = shadow::visibleSideFacesLight(surfaces_, triangle, Vec4(eye_, 1.0), towards_);
     last = triangle;

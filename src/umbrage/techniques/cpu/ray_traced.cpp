@@ -56,7 +56,7 @@ void mark(const trace::Tile& tile, int x, int y, std::uint32_t lanes, image::Gre
 }
 
 // Two rows of a tile.
-void shadeRows(const Shadowing& s, const trace::Tile& tile, int y, image::GreyImage& lit) {
+void shadeRows(const Shadowing& s, const trace::Tile& tile, int y, FacingPoints::Faces& faces, image::GreyImage& lit) {
   constexpr std::size_t kBatch = trace::LightRays::kBatch;
   std::array<trace::SurfacePoints8, kBatch> points;
   std::array<std::uint32_t, kBatch> hidden;
@@ -65,7 +65,7 @@ void shadeRows(const Shadowing& s, const trace::Tile& tile, int y, image::GreyIm
     std::size_t count = 0;
     for (; x < tile.x1 && count < kBatch; x += 4) {
       column[count] = x;
-      if (s.facing.place(look(s.seen, tile, x, y), x, y, points[count])) ++count;
+      if (s.facing.place(look(s.seen, tile, x, y), x, y, faces, points[count])) ++count;
     }
     s.lightRays.hidden({points.data(), count}, {hidden.data(), count});
     for (std::size_t i = 0; i < count; ++i) mark(tile, column[i], y, points[i].active & ~hidden[i], lit);
@@ -120,7 +120,8 @@ class RayTraced final : public shadow::Technique {
     shadow::LightMask mask{{camera.width, camera.height}, {}, {camera.width, camera.height}};
     const auto done = trace::forEachTile(camera.width, camera.height, [&](const trace::Tile& tile) {
       markCovered(seen, tile, mask.covered);
-      for (int y = tile.y0; y < tile.y1; y += 2) shadeRows(s, tile, y, mask.light);
+      FacingPoints::Faces faces;
+      for (int y = tile.y0; y < tile.y1; y += 2) shadeRows(s, tile, y, faces, mask.light);
     });
     if (!done) return tl::unexpected(done.error());
     return mask;

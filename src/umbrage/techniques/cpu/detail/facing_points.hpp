@@ -32,20 +32,24 @@ class FacingPoints {
   FacingPoints(const scene::Surfaces& surfaces, const std::vector<Plane>& planes, const scene::Camera& camera,
                const scene::Light& light);
 
-  /// `points` of the packet whose first pixel is (x, y). False where there is none, and `points` mean nothing.
-  [[nodiscard]] bool place(const Seen8& seen, int x, int y, trace::SurfacePoints8& points) const;
-
- private:
-  /// Triangles as the eye and the light see them.
+  /// Triangles as the eye and the light see them, kept from packet to packet: neighbours mostly see the same.
   struct Faces {
+    Faces() { triangle.fill(shadow::kNoTriangle); }
+    std::array<std::uint32_t, 8> triangle;
+    std::uint32_t lit = 0;    ///< bit k: the side of triangle[k] that the eye sees faces the light
     trace::Vec3Lanes normal;  ///< of unit length, on the eye's side; or zero
     /// Distances from the triangle's plane of the eye, at least 0, and of the light (for a direction: the sine of its elevation),
     /// above 0 on the eye's side.
     alignas(64) trace::Lanes eyeHeight, lightHeight;
   };
-  [[nodiscard]] Faces facesOf(const Seen8& seen) const;
-  [[nodiscard]] std::uint32_t litLanes(const Seen8& seen, const Faces& faces) const;
-  [[nodiscard]] std::uint32_t exactlyLit(const Seen8& seen, const Faces& faces, std::uint32_t lanes) const;
+
+  /// `points` of the packet whose first pixel is (x, y). False where there is none, and `points` mean nothing.
+  [[nodiscard]] bool place(const Seen8& seen, int x, int y, Faces& faces, trace::SurfacePoints8& points) const;
+
+ private:
+  void lookAt(Faces& faces) const;
+  [[nodiscard]] std::uint32_t litLanes(const Faces& faces) const;
+  [[nodiscard]] std::uint32_t exactlyLit(const Faces& faces, std::uint32_t lanes) const;
   void placePoints(const Seen8& seen, const Faces& faces, int x, int y, trace::SurfacePoints8& points) const;
   [[nodiscard]] std::uint32_t insideCone(const trace::SurfacePoints8& points) const;
 
