@@ -1,26 +1,191 @@
 #include "umbrage/render/stencil_shadows.hpp"
 
+#include <algorithm>
+#include <utility>
+
+#include "umbrage/base/check.hpp"
 #include "umbrage/gl/context.hpp"
 #include "umbrage/render/uniforms.hpp"
 
 namespace umbrage::render {
+namespace {
 
-Result<StencilShadows> StencilShadows::make(shadow::CasterSet casters) {
-  if (auto good = gl::checkCurrentContext(); !good) return tl::unexpected(good.error());
-  StencilShadows shadows;
-  shadows.light_.emplace_back();
-  if (auto done = shadows.setCasters(std::move(casters)); !done) return tl::unexpected(done.error());
-  return shadows;
+/// A part of a caster's volume, and how it is counted.
+struct Member {
+  const StoredVolume* volume;
+  const VolumePart* part;
+  const gl::Buffer* positions;
+  const gl::Buffer* view;
+  bool mirrored;
+  bool byZFail;
+  int eyeCount;
+};
+
+/// Members that are counted together.
+struct Group {
+  std::vector<Member> members;
+  int layers = 0;
+
+  [[nodiscard]] GroupPlan plan() const {
+    GroupPlan plan;
+    for (const Member& m : members) {
+      plan.eyeCount += m.eyeCount;
+      (m.byZFail ? plan.failSides : plan.passSides) |= m.part->sides.count > 0;
+      plan.failCaps |= m.byZFail && m.part->caps.count > 0;
+    }
+    return plan;
+  }
+};
+
+// First fit; one group of them all when it may be counted with all eight bits.
+std::vector<Group> grouped(std::vector<Member>&& members) {
+  int layers = 0;
+  for (const Member& m : members) layers += m.part->layers;
+  std::vector<Group> groups(1);
+  if (layers <= kWholeStencil) {
+    groups[0] = {std::move(members), layers};
+    return groups;
+  }
+  for (Member& m : members) {
+    const auto fits = [&](const Group& g) { return g.layers + m.part->layers <= kSharedStencil; };
+    auto group = std::find_if(groups.begin(), groups.end(), fits);
+    if (group == groups.end()) group = groups.insert(groups.end(), Group{});
+    group->layers += m.part->layers;
+    group->members.push_back(m);
+  }
+  return groups;
 }
 
-Result<void> StencilShadows::setCasters(shadow::CasterSet casters) {
-  if (auto done = setStorage(positions_, std::as_bytes(std::span(casters.positions)), "positions"); !done) return done;
-  finder_ = shadow::makeFinder(shadow::FinderKind::automatic,
-                               std::make_shared<const shadow::CasterSet>(std::move(casters)));
+View viewFrom(const PosedCasters& posed, const View& world) {
+  View view = world;
+  view.toClip = world.toClip * Mat4(Mat3(posed.toWorld));
+  view.eye = posed.casters->origin + pointFrom(posed, world.eye);
+  return view;
+}
+
+// The part of a member's volume that a step draws; empty when it is not for this member.
+IndexRange rangeFor(Draw draw, const Member& m) {
+  if (draw == Draw::passSides && !m.byZFail) return m.part->sides;
+  if (draw == Draw::failSides && m.byZFail) return m.part->sides;
+  if (draw == Draw::failCaps && m.byZFail) return m.part->caps;
   return {};
 }
 
+void drawMembers(gl::HostScope& scope, const PassStep& step, const Group& group, bool mirrored,
+                 const gl::Program& program) {
+  const auto drawn = [&](const Member& m) { return m.mirrored == mirrored && rangeFor(step.draw, m).count > 0; };
+  if (std::none_of(group.members.begin(), group.members.end(), drawn)) return;
+  gl::PassState state = step.state;
+  state.frontIsClockwise = state.frontIsClockwise != mirrored;
+  gl::Pass pass(scope, scope.hostFramebuffer(), state);
+  pass.use(program);
+  for (const Member& m : group.members) {
+    if (!drawn(m)) continue;
+    const IndexRange range = rangeFor(step.draw, m);
+    pass.uniforms(0, *m.view);
+    pass.storage(0, *m.positions);
+    pass.drawIndexed(m.volume->vertices, range.first, range.count);
+  }
+}
+
+void runStep(gl::HostScope& scope, const PassStep& step, const std::vector<Group>& groups, Programs& programs,
+             const gl::VertexArray& nothing) {
+  if (step.draw == Draw::nothing || step.draw == Draw::screen) {
+    gl::Pass pass(scope, scope.hostFramebuffer(), step.state);
+    if (step.clearStencil) pass.clearStencil(*step.clearStencil);
+    if (step.draw == Draw::nothing) return;
+    pass.use(programs.get(step.shader));
+    pass.draw(nothing, 3);
+    return;
+  }
+  for (const bool mirrored : {false, true})
+    drawMembers(scope, step, groups[static_cast<std::size_t>(step.group)], mirrored, programs.get(step.shader));
+}
+
+void add(shadow::LightStats& sum, const shadow::LightStats& more) {
+  sum.finder = more.finder;
+  sum.edgesTested += more.edgesTested;
+  sum.silhouetteEdges += more.silhouetteEdges;
+  sum.volumeTriangles += more.volumeTriangles;
+}
+
+Box3 boxAround(std::span<const PosedCasters> casters) {
+  Box3 box;
+  for (const PosedCasters& posed : casters) {
+    const Box3 own = worldBounds(posed);
+    if (own.empty()) continue;
+    box.add(own.min);
+    box.add(own.max);
+  }
+  return box;
+}
+
+// How one part is counted from the eye: by z-pass where it may be.
+Member memberOf(const PosedCasters& posed, const StoredVolume& volume, const VolumePart& part, const Vec3& eye,
+                Counting counting) {
+  Member m{&volume, &part, nullptr, nullptr, mirrors(posed), counting == Counting::zFail, 0};
+  if (m.byZFail) return m;
+  const shadow::EyeCount atEye = shadow::countAtEye(*posed.casters, part.silhouette, eye);
+  m.byZFail = atEye.byZFailCount > 0;
+  if (!m.byZFail) m.eyeCount = atEye.count;
+  return m;
+}
+
+// What the casters at place i of a call add to it.
+struct Work {
+  VolumeMemo& memo;
+  std::vector<gl::Buffer>& views;
+
+  [[nodiscard]] Result<std::vector<Member>> membersOf(const PosedCasters& posed, std::size_t i,
+                                                      const scene::Light& light, const View& view, Counting counting,
+                                                      shadow::LightStats& stats) const {
+    UMBRAGE_CHECK(posed.casters != nullptr, "casters");
+    const Vec4 seenFrom = lightFrom(posed, light);
+    const auto positions = memo.positions(posed.casters);
+    if (!positions) return tl::unexpected(positions.error());
+    const auto volume = memo.volume(posed.casters, seenFrom);
+    if (!volume) return tl::unexpected(volume.error());
+    if (auto done = views[i].setOne(viewBlock(viewFrom(posed, view), posed.casters->origin, seenFrom)); !done)
+      return tl::unexpected(done.error());
+    add(stats, (*volume)->stats);
+    std::vector<Member> members;
+    for (const VolumePart& part : (*volume)->parts) {
+      Member m = memberOf(posed, **volume, part, pointFrom(posed, view.eye), counting);
+      m.positions = *positions;
+      m.view = &views[i];
+      stats.castersByZFail += counting == Counting::zPass && m.byZFail;
+      stats.eyeCount += m.eyeCount;
+      members.push_back(m);
+    }
+    return members;
+  }
+};
+
+}  // namespace
+
+Result<StencilShadows> StencilShadows::make() {
+  if (auto good = gl::checkCurrentContext(); !good) return tl::unexpected(good.error());
+  return StencilShadows();
+}
+
+Result<StencilShadows> StencilShadows::make(shadow::CasterSet casters) {
+  auto shadows = make();
+  if (shadows) shadows->setCasters(std::move(casters));
+  return shadows;
+}
+
+void StencilShadows::setCasters(shadow::CasterSet casters) {
+  own_.casters = std::make_shared<const shadow::CasterSet>(std::move(casters));
+}
+
+Result<shadow::LightStats> StencilShadows::mark(const scene::Light& light, const HostView& view,
+                                                const StencilShadowOptions& options) {
+  if (own_.casters == nullptr) return mark(light, view, std::span<const PosedCasters>(), options);
+  return mark(light, view, {&own_, 1}, options);
+}
+
 Result<shadow::LightStats> StencilShadows::mark(const scene::Light& light, const HostView& hostView,
+                                                std::span<const PosedCasters> casters,
                                                 const StencilShadowOptions& options) {
   gl::HostScope scope;
   if (scope.hostStencilBits() < 8) return fail(ErrorCode::device, "the framebuffer has fewer than 8 bits of stencil");
@@ -28,26 +193,30 @@ Result<shadow::LightStats> StencilShadows::mark(const scene::Light& light, const
   const View view = viewOf(hostView.view, hostView.projection, hostView.reversed);
   gl::PassState placement = scope.hostPlacement();
   placement.frontIsClockwise = mirrors(view);
-
-  shadow::LightStats stats;
-  const shadow::CasterSet& casters = finder_->casters();
-  const Vec4 homogeneous = scene::homogeneous(light, casters.origin);
   // A ray may enter a volume through a caster that the depth buffer does not hold; without caps nobody would count that.
   const Counting counting = options.castersInDepth ? options.counting : Counting::zFail;
-  const LightVolume volume = prepareVolume(*finder_, homogeneous, view.eye - casters.origin, counting, stats);
-  stats.reason = options.castersInDepth ? "chosen by the host" : "the casters are not in the depth buffer";
-  GpuLight& gpu = light_.front();
-  for (const auto& done :
-       {gpu.view.setOne(viewBlock(view, casters.origin, homogeneous)), gpu.volume.setAll(volume.indices)})
-    if (!done) return tl::unexpected(done.error());
-  gpu.groups = volume.groups;
 
-  const LightPlan plan{.groups = planGroups(volume),
-                       .compareCaps = !options.castersInDepth,
-                       .volumeArea = volumeArea(view, casters.bounds, {}, homogeneous, casters.origin, placement),
-                       .litArea = litArea(view, light, placement)};
-  run(scope, planPasses(placement, view.reversed, {plan}, Product::hostStencil),
-      {.programs = programs_, .positions = positions_, .lights = light_});
+  shadow::LightStats stats;
+  stats.method = counting == Counting::zPass ? "zpass" : "zfail";
+  stats.reason = options.castersInDepth ? "chosen by the host" : "the casters are not in the depth buffer";
+  memo_.beginTurn();
+  while (views_.size() < casters.size()) views_.emplace_back();
+  std::vector<Member> members;
+  for (std::size_t i = 0; i < casters.size(); ++i) {
+    auto added = Work{memo_, views_}.membersOf(casters[i], i, light, view, counting, stats);
+    if (!added) return tl::unexpected(added.error());
+    members.insert(members.end(), added->begin(), added->end());
+  }
+
+  const std::vector<Group> groups = grouped(std::move(members));
+  LightPlan plan{.groups = {},
+                 .compareCaps = !options.castersInDepth,
+                 .volumeArea = volumeArea(view, boxAround(casters), {}, scene::homogeneous(light, Vec3(0.0)), Vec3(0.0),
+                                          placement),
+                 .litArea = litArea(view, light, placement)};
+  for (const Group& group : groups) plan.groups.push_back(group.plan());
+  for (const PassStep& step : planPasses(placement, view.reversed, {plan}, Product::hostStencil).steps)
+    runStep(scope, step, groups, programs_, nothing_);
   return stats;
 }
 
