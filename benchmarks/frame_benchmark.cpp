@@ -1,30 +1,13 @@
 // The phases of a frame, for every technique that runs here: medians over the rounds, in milliseconds.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <map>
 
-#include "umbrage/techniques/cpu/registry.hpp"
+#include "all_techniques.hpp"
 #include "views.hpp"
-#ifdef UMBRAGE_HAVE_TECHNIQUES_GL
-#include "umbrage/techniques/gl/registry.hpp"
-#endif
 
 namespace umbrage::benchmarks {
 namespace {
-
-std::vector<shadow::TechniqueEntry> allTechniques() {
-  auto all = techniques::cpuTechniques();
-#ifdef UMBRAGE_HAVE_TECHNIQUES_GL
-  for (auto& entry : techniques::openGlTechniques()) all.push_back(std::move(entry));
-#endif
-  return all;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0.0 : values[values.size() / 2];
-}
 
 void frame(benchmark::State& state, const shadow::TechniqueEntry& entry, View (*make)()) {
   const View view = make();
@@ -53,10 +36,13 @@ void prepare(benchmark::State& state, const shadow::TechniqueEntry& entry, View 
 }
 
 const bool kRegistered = [] {
-  const std::pair<const char*, View (*)()> views[] = {
-      {"building_air", fromTheAir}, {"building_street", fromTheStreet}, {"knot", knot},
-      {"city_air", cityAir},        {"city_street", cityStreet},        {"city_lamp", cityLamp},
-      {"grooved_knot", groovedKnotView}};
+  const std::pair<const char*, View (*)()> views[] = {{"building_air", fromTheAir},
+                                                      {"building_street", fromTheStreet},
+                                                      {"knot", knot},
+                                                      {"city_air", cityAir},
+                                                      {"city_street", cityStreet},
+                                                      {"city_lamp", cityLamp},
+                                                      {"grooved_knot", groovedKnotView}};
   for (const auto& entry : allTechniques()) {
     for (const auto& [name, make] : views) {
       const auto run = [entry, make = make](benchmark::State& state) { frame(state, entry, make); };

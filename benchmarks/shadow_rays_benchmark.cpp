@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "all_techniques.hpp"
 #include "bare_rays.hpp"
 #include "umbrage/techniques/cpu/registry.hpp"
 
@@ -12,12 +13,6 @@ namespace umbrage::benchmarks {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 double shadowMilliseconds(const shadow::Shading& shading) {
   for (const shadow::PhaseTime& phase : shading.stats.phases)

@@ -10,6 +10,14 @@ namespace {
 
 std::string text(const Vec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
 
+// Of a closed mesh, six times what it encloses; negative when it is wound inwards.
+double enclosed(const mesh::Mesh& m) {
+  double sum = 0;
+  for (const mesh::Triangle& t : m.triangles)
+    sum += glm::dot(m.positions[t[0]], glm::cross(m.positions[t[1]], m.positions[t[2]]));
+  return sum;
+}
+
 }  // namespace
 
 std::vector<StagedScene> stagedScenes() {
@@ -23,6 +31,7 @@ std::string exported(const StagedScene& stage) {
   std::string out;
   for (const scene::Instance& i : stage.scene.instances) {
     const mesh::Mesh& m = *stage.scene.meshes[i.mesh];
+    UMBRAGE_CHECK(!i.casts || enclosed(m) > 0, "other programs cull faces: casters must be wound outwards");
     out += fmt::format("mesh {} {} {} {}\n", i.name, i.casts ? 1 : 0, m.positions.size(), m.triangles.size());
     for (const Vec3& p : m.positions) out += text(transformPoint(i.toWorld, p)) + "\n";
     for (const mesh::Triangle& t : m.triangles) out += fmt::format("{} {} {}\n", t[0], t[1], t[2]);

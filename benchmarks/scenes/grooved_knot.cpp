@@ -25,8 +25,8 @@ mesh::Mesh tube() {
       const double b = 2 * std::numbers::pi * j / kRows, r = 4 * (1 + 0.06 * std::sin(9 * b) * std::cos(60 * a));
       m.positions.push_back(snapped(centreLine(a) + r * std::cos(b) * x + r * std::sin(b) * y));
       const std::uint32_t here = i * kRows, next = (i + 1) % kColumns * kRows, above = (j + 1) % kRows;
-      m.triangles.push_back({here + j, next + j, next + above});
-      m.triangles.push_back({here + j, next + above, here + above});
+      m.triangles.push_back({here + j, next + above, next + j});
+      m.triangles.push_back({here + j, here + above, next + above});
     }
   }
   return m;
