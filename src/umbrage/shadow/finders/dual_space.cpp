@@ -11,16 +11,16 @@ namespace {
 
 constexpr double kLeastSteady = 0x1p-22;  // see kDoubt
 
-double dot(const DualPoint& p, const std::array<double, 4>& along) {
-  return double(p[0]) * along[0] + double(p[1]) * along[1] + double(p[2]) * along[2] + double(p[3]) * along[3];
+float dot(const DualPoint& p, const DualPoint& along) {
+  return p[0] * along[0] + p[1] * along[1] + p[2] * along[2] + p[3] * along[3];
 }
 
 // Directions that no model is built along: they decide which of the two equivalent forms of a segment is kept, so that like
 // segments lie near each other whatever the order of their corners.
-constexpr std::array<double, 4> kUp{0.4327, 0.3119, 0.8461, 0.0813}, kAcross{0.7213, -0.6301, -0.1931, 0.2217};
+constexpr DualPoint kUp{0.4327f, 0.3119f, 0.8461f, 0.0813f}, kAcross{0.7213f, -0.6301f, -0.1931f, 0.2217f};
 
 DualEdge canonical(DualPoint p, DualPoint q, std::uint32_t tag) {
-  if (dot(p, kUp) + dot(q, kUp) < 0.0) {
+  if (dot(p, kUp) + dot(q, kUp) < 0.0f) {
     p = -p, q = -q;
     tag ^= kTagNegative;
   }

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "umbrage/shadow/finders/dual_space.hpp"
@@ -30,6 +32,11 @@ constexpr std::uint32_t kTriangle = kHalf - 1;
 
 struct alignas(32) Lights {
   float axis[4][64];
+};
+
+/// For one light, 64 edges.
+struct EdgeBits {
+  std::uint64_t crossed, positive;
 };
 
 struct Sides {
@@ -84,6 +91,15 @@ void plainTranspose(std::array<std::uint64_t, 64>& square) { transposeSquare(squ
 [[gnu::target("avx2")]] void wideTranspose(std::array<std::uint64_t, 64>& square) { transposeSquare(square); }
 #endif
 
+[[gnu::always_inline]] inline std::size_t countCrossed(std::span<const EdgeBits> words) {
+  std::size_t count = 0;
+  for (const EdgeBits& word : words) count += static_cast<std::size_t>(std::popcount(word.crossed));
+  return count;
+}
+#ifdef UMBRAGE_HAVE_AVX2
+[[gnu::target("avx2,popcnt")]] std::size_t wideCount(std::span<const EdgeBits> words) { return countCrossed(words); }
+#endif
+
 template <class Fn>
 void forEachBit(std::uint64_t bits, const Fn& fn) {
   for (; bits != 0; bits &= bits - 1) fn(static_cast<std::size_t>(std::countr_zero(bits)));
@@ -93,19 +109,16 @@ std::uint64_t flip(std::uint32_t use) { return (use & kNegative) != 0 ? ~std::ui
 
 }  // namespace
 
-// For one light, 64 edges.
-struct ManyLights::LightWords {
-  std::uint64_t crossed, positive;
-};
-
 struct ManyLights::Turned {
-  std::vector<LightWords> words;    ///< light by light
+  std::vector<EdgeBits> words;      ///< light by light
   std::vector<std::uint64_t> half;  ///< a bit an edge: its multiplicity is 1, not 2
 };
 
 // What is gathered for up to 64 lights.
 struct ManyLights::Group {
-  std::vector<Words> facing;  ///< per triangle
+  std::vector<Words> facing;   ///< per triangle, or per normal
+  std::span<const Uses> uses;  ///< of the same
+  bool byNormal;
   std::uint64_t live;
   bool halveConvex;
   Out out;
@@ -148,17 +161,40 @@ ManyLights::ManyLights(std::shared_ptr<const CasterSet> casters, const FinderOpt
     else if (outward(first) != 0)
       uses_.back()[1] |= kHalf;
   }
+  shareNormals();
 }
 
-std::vector<ManyLights::Words> ManyLights::facing(std::span<const Vec4> lights) const {
+void ManyLights::shareNormals() {
+  constexpr std::size_t kTried = 1024;
+  const auto normal = [&](std::size_t t) {
+    return std::array<float, 4>{planes_[t][0], planes_[t][1], planes_[t][2], 0.0f};
+  };
+  std::set<std::array<float, 4>> some;
+  const std::size_t step = planes_.size() / kTried + 1;
+  for (std::size_t t = 0; t < planes_.size(); t += step) some.insert(normal(t));
+  if (some.size() * step * 4 > planes_.size()) return;
+  std::map<std::array<float, 4>, std::uint32_t> numbers;
+  normalOf_.reserve(planes_.size());
+  for (std::size_t t = 0; t < planes_.size(); ++t) {
+    const auto [entry, isNew] = numbers.try_emplace(normal(t), static_cast<std::uint32_t>(normals_.size()));
+    if (isNew) normals_.push_back(normal(t));
+    normalOf_.push_back(entry->second);
+  }
+  normalUses_ = uses_;
+  for (Uses& uses : normalUses_)
+    for (std::uint32_t& use : uses) use = (use & ~kTriangle) | normalOf_[use & kTriangle];
+}
+
+std::vector<ManyLights::Words> ManyLights::facing(std::span<const Vec4> lights, bool byNormal) const {
   Lights wide{};
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const DualPoint u = dualLight({centre_, radius_}, lights[i]);
     for (int k = 0; k < 4; ++k) wide.axis[k][i] = u[k];
   }
   std::vector<Words> words;
-  words.reserve(planes_.size());
-  for (const DualPoint& plane : planes_) {
+  const auto& planes = byNormal ? normals_ : planes_;
+  words.reserve(planes.size());
+  for (const DualPoint& plane : planes) {
 #ifdef UMBRAGE_HAVE_AVX2
     const Sides s = avx2_ ? wideSides(plane, wide) : plainSides(plane, wide);
 #else
@@ -178,7 +214,7 @@ ManyLights::Rows ManyLights::rows(std::size_t firstEdge, const Group& group) con
       ++special;
       continue;
     }
-    const auto [a, b] = uses_[firstEdge + i];
+    const auto [a, b] = group.uses[firstEdge + i];
     const Words &first = group.facing[a & kTriangle], &second = group.facing[b & kTriangle];
     rows.doubtful[i] = (first.doubtful | second.doubtful) & group.live;
     rows.positive[i] = first.positive ^ flip(a);
@@ -223,7 +259,7 @@ void ManyLights::pickEdges(Group& group) const {
 
 ManyLights::Turned ManyLights::turn(Group& group) const {
   const std::size_t blocks = (uses_.size() + kEdges - 1) / kEdges, lights = group.out.size();
-  Turned turned{std::vector<LightWords>(blocks * lights), std::vector<std::uint64_t>(blocks)};
+  Turned turned{std::vector<EdgeBits>(blocks * lights), std::vector<std::uint64_t>(blocks)};
   for (std::size_t b = 0; b < blocks; ++b) {
     Rows r = rows(b * kEdges, group);
     bookDoubtful(b * kEdges, r, group);
@@ -245,16 +281,19 @@ ManyLights::Turned ManyLights::turn(Group& group) const {
 void ManyLights::takeTurned(const Turned& turned, std::size_t light, std::vector<SignedEdge>& edges) const {
   const std::size_t blocks = turned.half.size();
   const auto words = std::span(turned.words).subspan(light * blocks, blocks);
-  std::size_t count = 0;
-  for (const LightWords& word : words) count += static_cast<std::size_t>(std::popcount(word.crossed));
-  edges.resize(count);
+#ifdef UMBRAGE_HAVE_AVX2
+  edges.resize(avx2_ ? wideCount(words) : countCrossed(words));
+#else
+  edges.resize(countCrossed(words));
+#endif
   SignedEdge* next = edges.data();
   for (std::size_t b = 0; b < blocks; ++b) {
     const std::uint64_t half = turned.half[b], positive = words[b].positive;
+    const auto first = static_cast<std::uint32_t>(b * kEdges);
     forEachBit(words[b].crossed, [&](std::size_t i) {
       const std::int32_t size = 2 - static_cast<std::int32_t>(half >> i & 1),
-                         sign = static_cast<std::int32_t>(positive >> i & 1) * 2 - 1;
-      *next++ = {static_cast<std::uint32_t>(b * kEdges + i), sign * size};
+                         away = static_cast<std::int32_t>(positive >> i & 1) - 1;
+      *next++ = {first + static_cast<std::uint32_t>(i), (size ^ away) - away};
     });
   }
 }
@@ -268,7 +307,8 @@ void ManyLights::addManyFaced(Group& group) const {
       std::int32_t sum = 0;
       bool doubtful = folded;
       for (std::uint32_t u = edge.begin; u < edge.end && !doubtful; ++u) {
-        const Words& words = group.facing[casters_->uses[u].triangle];
+        const std::uint32_t triangle = casters_->uses[u].triangle;
+        const Words& words = group.facing[group.byNormal ? normalOf_[triangle] : triangle];
         doubtful = (words.doubtful >> i & 1) != 0;
         sum += (words.positive >> i & 1) != 0 ? casters_->uses[u].sign : -casters_->uses[u].sign;
       }
@@ -298,7 +338,10 @@ void ManyLights::findGroup(std::span<const Vec4> lights, const SilhouetteOptions
     found.answeredBy = FinderKind::bruteForceSimd;
   }
   const std::uint64_t live = ~std::uint64_t{0} >> (kGroup - lights.size());
-  Group group{facing(lights), live, !options.countEverySurface, out, {}};
+  const bool byNormal =
+      !normals_.empty() && std::all_of(lights.begin(), lights.end(), [](const Vec4& l) { return l.w == 0.0; });
+  Group group{
+      facing(lights, byNormal), byNormal ? normalUses_ : uses_, byNormal, live, !options.countEverySurface, out, {}};
   addManyFaced(group);
   const std::vector<std::size_t> found = expected(group);
   const bool many = std::accumulate(found.begin(), found.end(), std::size_t{0}) > uses_.size() * lights.size() / kDense;
@@ -349,8 +392,9 @@ void ManyLights::visit(std::span<const Vec4> lights, const Answer& answer, const
 }
 
 std::size_t ManyLights::memory() const {
-  return exact_.memory() + planes_.capacity() * sizeof(planes_[0]) + uses_.capacity() * sizeof(uses_[0]) +
-         special_.capacity() * sizeof(std::uint32_t);
+  return exact_.memory() + (normals_.capacity() + planes_.capacity()) * sizeof(planes_[0]) +
+         normalOf_.capacity() * sizeof(std::uint32_t) + normalUses_.capacity() * sizeof(Uses) +
+         uses_.capacity() * sizeof(uses_[0]) + special_.capacity() * sizeof(std::uint32_t);
 }
 
 }  // namespace umbrage::shadow

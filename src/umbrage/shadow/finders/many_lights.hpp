@@ -36,11 +36,11 @@ class ManyLights {
   };
   struct Group;
   struct Rows;
-  struct LightWords;
   struct Turned;
 
   using Out = std::span<FoundEdges>;
-  [[nodiscard]] std::vector<Words> facing(std::span<const Vec4> lights) const;
+  void shareNormals();
+  [[nodiscard]] std::vector<Words> facing(std::span<const Vec4> lights, bool byNormal) const;
   template <class Done>
   void findGroup(std::span<const Vec4> lights, const SilhouetteOptions& options, Out out, bool keep,
                  const Done& done) const;
@@ -60,9 +60,14 @@ class ManyLights {
   ExactEdges exact_;
   Vec3 centre_{0.0};
   double radius_ = 0.0;
-  std::vector<std::array<float, 4>> planes_;        ///< per triangle; zero for slivers, which are always in doubt
-  std::vector<std::array<std::uint32_t, 2>> uses_;  ///< per edge: its two triangles, or its one twice, with flags
-  std::vector<std::uint32_t> special_;              ///< edges of more than two faces, and folded ones of solids
+  std::vector<std::array<float, 4>> planes_;  ///< per triangle; zero for slivers, which are always in doubt
+  using Uses = std::array<std::uint32_t, 2>;
+  std::vector<Uses> uses_;  ///< per edge: its two triangles, or its one twice, with flags
+  /// Where many triangles share their normals, directions need look at normals only.
+  std::vector<std::array<float, 4>> normals_;  ///< all different; empty: hardly any two are equal
+  std::vector<std::uint32_t> normalOf_;        ///< per triangle
+  std::vector<Uses> normalUses_;               ///< uses_ with normals instead of triangles
+  std::vector<std::uint32_t> special_;         ///< edges of more than two faces, and folded ones of solids
   unsigned threads_;
   bool avx2_;
 };

@@ -22,7 +22,7 @@ struct NodeFate {
   std::uint32_t skipped, falling, rising;
 };
 
-/// Segments packed for vector units under a tree of boxes without pointers: every 8 are a leaf, every 16 nodes a node.
+/// Segments packed for vector units under a tree of boxes without pointers: every 16 are a leaf, every 16 nodes a node.
 template <int Axes>
 class SegmentTree {
  public:
@@ -31,11 +31,11 @@ class SegmentTree {
 
   SegmentTree() = default;
   /// `coordinate(segment, k)`, k < OrderAxes: what brings like segments together. `extend(segment, add)` calls add(point) for each
-  /// point that a box around the segment must hold. Reorders the segments.
+  /// point that a box around the segment must hold.
   template <int OrderAxes, class Coordinate, class Extend>
-  static SegmentTree build(std::span<DualEdge> segments, unsigned threads, const Coordinate& coordinate,
+  static SegmentTree build(std::vector<DualEdge> segments, unsigned threads, const Coordinate& coordinate,
                            const Extend& extend) {
-    spread<OrderAxes>(segments, {kLanes, kArity}, coordinate, threads);
+    spread<OrderAxes>(segments, {kLeaf, kArity}, coordinate, threads);
     SegmentTree tree;
     tree.pack(segments);
     tree.bound(segments, extend);
@@ -46,20 +46,21 @@ class SegmentTree {
   template <class Judge>
   std::size_t find(const DualPoint& light, const Judge& judge, const TagReader& reader, bool avx2,
                    Collector& out) const {
-    if (leaves_.empty()) return 0;
+    if (blocks_.empty()) return 0;
     std::vector<std::uint32_t> doubtful;
     visit(levels_.size() - 1, 0, judge, reader, doubtful, out);
-    return readLeaves(doubtful, light, reader, avx2, out);
+    return readBlocks(doubtful, light, reader, avx2, out);
   }
 
   [[nodiscard]] std::size_t memory() const {
-    std::size_t bytes = leaves_.capacity() * sizeof(SegmentBlock);
+    std::size_t bytes = blocks_.capacity() * sizeof(SegmentBlock);
     for (const auto& level : levels_) bytes += level.capacity() * sizeof(Boxes<Axes>);
     return bytes;
   }
 
  private:
-  static constexpr std::size_t kBlocks = kArity / kLanes, kAhead = 6;
+  static constexpr std::size_t kLeafBlocks = 2, kLeaf = kLeafBlocks * kLanes;
+  static constexpr std::size_t kNodeBlocks = kArity / kLanes, kAhead = 8;
 
   struct Box {
     Point low, high;
@@ -89,28 +90,32 @@ class SegmentTree {
 
   void pack(std::span<const DualEdge> segments) {
     segmentCount_ = segments.size();
-    leaves_.resize((segments.size() + kLanes - 1) / kLanes);
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-      SegmentBlock& block = leaves_[i / kLanes];
-      for (int end = 0; end < 2; ++end)
-        for (int k = 0; k < 4; ++k) block.point[end][k][i % kLanes] = segments[i].point[end][k];
-      block.tag[i % kLanes] = segments[i].tag;
+    blocks_.reserve((segments.size() + kLanes - 1) / kLanes);
+    for (std::size_t first = 0; first < segments.size(); first += kLanes) {
+      SegmentBlock block{};
+      for (std::size_t i = 0; i < std::min<std::size_t>(kLanes, segments.size() - first); ++i) {
+        const DualEdge& s = segments[first + i];
+        for (int end = 0; end < 2; ++end)
+          for (int k = 0; k < 4; ++k) block.point[end][k][i] = s.point[end][k];
+        block.tag[i] = s.tag;
+      }
+      blocks_.push_back(block);
     }
   }
 
   template <class Extend>
   void bound(std::span<const DualEdge> segments, const Extend& extend) {
-    if (leaves_.empty()) return;
-    std::vector<Boxes<Axes>> level((leaves_.size() + kLanes - 1) / kLanes);
-    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    if (blocks_.empty()) return;
+    std::vector<Boxes<Axes>> level((leafCount() + kLanes - 1) / kLanes);
+    for (std::size_t i = 0; i < leafCount(); ++i) {
       Box box;
-      const std::size_t first = i * kLanes;
-      for (const DualEdge& s : segments.subspan(first, std::min<std::size_t>(kLanes, segments.size() - first)))
+      const std::size_t first = i * kLeaf;
+      for (const DualEdge& s : segments.subspan(first, std::min(kLeaf, segments.size() - first)))
         extend(s, [&](const Point& p) { box.add(p); });
       store(level, i, box);
     }
     levels_.push_back(std::move(level));
-    for (std::size_t count = leaves_.size(); count > kArity;) {
+    for (std::size_t count = leafCount(); count > kArity;) {
       const std::size_t nodes = (count + kArity - 1) / kArity;
       std::vector<Boxes<Axes>> coarser((nodes + kLanes - 1) / kLanes);
       for (std::size_t i = 0; i < nodes; ++i) {
@@ -134,50 +139,54 @@ class SegmentTree {
   template <class Judge>
   void visit(std::size_t level, std::size_t node, const Judge& judge, const TagReader& reader,
              std::vector<std::uint32_t>& doubtful, Collector& out) const {
-    const std::size_t below = leavesBelow(level), children = (leaves_.size() + below - 1) / below;
-    for (std::size_t b = node * kBlocks; b < node * kBlocks + kBlocks && b * kLanes < children; ++b) {
+    const std::size_t below = leavesBelow(level), children = (leafCount() + below - 1) / below;
+    for (std::size_t b = node * kNodeBlocks; b < (node + 1) * kNodeBlocks && b * kLanes < children; ++b) {
       const std::uint32_t live = (1u << std::min<std::size_t>(kLanes, children - b * kLanes)) - 1;
       const NodeFate fate = judge(levels_[level][b]);
       const std::uint32_t crossed = (fate.falling | fate.rising) & live;
       for (std::uint32_t bits = crossed; bits != 0; bits &= bits - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-        takeAll((b * kLanes + lane) * below, below, (fate.falling >> lane & 1) != 0, reader, out);
+        takeAll((b * kLanes + lane) * below * kLeafBlocks, below * kLeafBlocks, (fate.falling >> lane & 1) != 0, reader,
+                out);
       }
       for (std::uint32_t bits = live & ~(fate.skipped | crossed); bits != 0; bits &= bits - 1) {
         const std::size_t child = b * kLanes + static_cast<std::size_t>(std::countr_zero(bits));
-        if (level == 0)
-          doubtful.push_back(static_cast<std::uint32_t>(child));
-        else
+        if (level > 0)
           visit(level - 1, child, judge, reader, doubtful, out);
+        else
+          for (std::size_t i = child * kLeafBlocks; i < std::min((child + 1) * kLeafBlocks, blocks_.size()); ++i)
+            doubtful.push_back(static_cast<std::uint32_t>(i));
       }
     }
   }
 
-  void takeAll(std::size_t firstLeaf, std::size_t count, bool falling, const TagReader& reader, Collector& out) const {
-    for (std::size_t leaf = firstLeaf; leaf < std::min(firstLeaf + count, leaves_.size()); ++leaf)
-      for (std::size_t i = 0; i < lanesOf(leaf); ++i) reader.crossed(leaves_[leaf].tag[i], falling, out);
+  void takeAll(std::size_t first, std::size_t count, bool falling, const TagReader& reader, Collector& out) const {
+    for (std::size_t b = first; b < std::min(first + count, blocks_.size()); ++b)
+      for (std::size_t i = 0; i < lanesOf(b); ++i) reader.crossed(blocks_[b].tag[i], falling, out);
   }
 
-  std::size_t readLeaves(std::span<const std::uint32_t> list, const DualPoint& light, const TagReader& reader,
+  std::size_t readBlocks(std::span<const std::uint32_t> list, const DualPoint& light, const TagReader& reader,
                          bool avx2, Collector& out) const {
     std::size_t tested = 0;
     for (std::size_t i = 0; i < list.size(); ++i) {
       if (i + kAhead < list.size()) {
-        const char* next = reinterpret_cast<const char*>(&leaves_[list[i + kAhead]]);
+        const char* next = reinterpret_cast<const char*>(&blocks_[list[i + kAhead]]);
         for (std::size_t line = 0; line < sizeof(SegmentBlock); line += 64) __builtin_prefetch(next + line);
       }
-      const SegmentBlock& block = leaves_[list[i]];
+      const SegmentBlock& block = blocks_[list[i]];
       reader.read(block, laneSigns(block, light, avx2), (1u << lanesOf(list[i])) - 1, out);
       tested += lanesOf(list[i]);
     }
     return tested;
   }
 
-  [[nodiscard]] std::size_t lanesOf(std::size_t leaf) const {
-    return std::min<std::size_t>(kLanes, segmentCount_ - leaf * kLanes);
+  [[nodiscard]] std::size_t lanesOf(std::size_t block) const {
+    return std::min<std::size_t>(kLanes, segmentCount_ - block * kLanes);
   }
 
-  std::vector<SegmentBlock> leaves_;
+  [[nodiscard]] std::size_t leafCount() const { return (blocks_.size() + kLeafBlocks - 1) / kLeafBlocks; }
+
+  std::vector<SegmentBlock> blocks_;
   std::vector<std::vector<Boxes<Axes>>> levels_;  ///< boxes of the children; levels_[0] bounds leaves
   std::size_t segmentCount_ = 0;
 };

@@ -1,12 +1,22 @@
 // Orders items so that neighbours in the list are neighbours in space: a tree without pointers.
+//
+// Large lists are first laid into cells that halve a sample of them again and again along its widest axis: one comparison an item and
+// halving, and one move in all. Within cells that fit into the cache the halvings are exact.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
-#include <thread>
+#include <utility>
+#include <vector>
+
+#include "umbrage/shadow/finders/threads.hpp"
 
 namespace umbrage::shadow {
 
@@ -24,17 +34,54 @@ struct TreeShape {
   }
 };
 
+namespace spreading {
+
+/// A number that orders like the float, above an index that makes it unique.
+inline std::uint64_t sortable(float value, std::uint32_t index) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  const std::uint32_t ordered = (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
+  return std::uint64_t{ordered} << 32 | index;
+}
+
+/// Moves the k smallest of different numbers to the front. Without branches on them, which a processor could not foresee.
+inline void select(std::uint64_t* a, std::size_t n, std::size_t k) {
+  constexpr std::size_t kSmall = 12;
+  while (n > kSmall) {
+    std::array<std::uint64_t, 5> sample{a[0], a[n / 4], a[n / 2], a[n - n / 4], a[n - 1]};
+    for (std::size_t i = 1; i < sample.size(); ++i)
+      for (std::size_t j = i; j > 0; --j) {
+        const auto [low, high] = std::minmax(sample[j - 1], sample[j]);
+        sample[j - 1] = low, sample[j] = high;
+      }
+    const std::uint64_t pivot = sample[std::clamp<std::size_t>(k * 5 / n, 1, 3)];
+    std::size_t less = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::uint64_t value = a[i];
+      a[i] = a[less];
+      a[less] = value;
+      less += value < pivot ? 1 : 0;
+    }
+    if (k == less) return;
+    if (k < less) {
+      n = less;
+    } else {
+      a += less, n -= less, k -= less;
+    }
+  }
+  std::sort(a, a + n);
+}
+
 /// The axis along which some of the items lie farthest apart. A sample tells as much as all of them.
-template <int Axes, class Item, class Key>
-int widestAxis(std::span<const Item> items, const Key& key) {
-  constexpr std::size_t kSample = 128;
+template <int Axes, class At>
+int widestAxis(std::size_t count, const At& at) {
+  constexpr std::size_t kSample = 16;
   std::array<float, Axes> low, high;
   low.fill(std::numeric_limits<float>::max());
   high.fill(std::numeric_limits<float>::lowest());
-  const std::size_t step = std::max<std::size_t>(1, items.size() / kSample);
-  for (std::size_t i = 0; i < items.size(); i += step) {
+  const std::size_t step = std::max<std::size_t>(1, count / kSample);
+  for (std::size_t i = 0; i < count; i += step) {
     for (int k = 0; k < Axes; ++k) {
-      const float value = key(items[i], k);
+      const float value = at(i, k);
       low[k] = std::min(low[k], value);
       high[k] = std::max(high[k], value);
     }
@@ -45,25 +92,108 @@ int widestAxis(std::span<const Item> items, const Key& key) {
   return widest;
 }
 
-/// Halves the items again and again along their widest axis, at borders of runs. `key(item, axis)` is finite.
+/// Exact halvings at borders of runs, of numbers into `items`. `room` holds as many words.
+template <int Axes, class Item, class Key>
+void halve(const Item* items, std::span<std::uint32_t> order, std::uint64_t* room, const TreeShape& shape,
+           const Key& key) {
+  const std::size_t run = shape.childRun(order.size());
+  if (run == 0) return;
+  const std::size_t runs = (order.size() + run - 1) / run, half = (runs + 1) / 2 * run;
+  const int axis = widestAxis<Axes>(order.size(), [&](std::size_t i, int k) { return key(items[order[i]], k); });
+  for (std::size_t i = 0; i < order.size(); ++i) room[i] = sortable(key(items[order[i]], axis), order[i]);
+  select(room, order.size(), half);
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(room[i]);
+  halve<Axes>(items, order.first(half), room, shape, key);
+  halve<Axes>(items, order.subspan(half), room, shape, key);
+}
+
+/// The same, from one list into another.
+template <int Axes, class Item, class Key>
+void halve(std::span<const Item> from, Item* to, const TreeShape& shape, const Key& key) {
+  std::vector<std::uint32_t> order(from.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::vector<std::uint64_t> room(from.size());
+  halve<Axes>(from.data(), std::span(order), room.data(), shape, key);
+  for (const std::uint32_t i : order) *to++ = from[i];
+}
+
+/// A complete tree of planes: cell i of level k goes left at node 2^k - 1 + i.
+struct Cells {
+  struct Plane {
+    int axis;
+    float at;
+  };
+  unsigned levels = 0;
+  std::vector<Plane> planes;
+
+  /// Of all items. Several at a time, since each step waits for the one before.
+  template <class Item, class Key>
+  [[nodiscard]] std::vector<std::uint32_t> cellsOf(std::span<const Item> items, const Key& key) const {
+    constexpr std::size_t kTogether = 8;
+    std::vector<std::uint32_t> cells(items.size());
+    for (std::size_t i = 0; i < items.size(); i += kTogether) {
+      std::array<std::uint32_t, kTogether> node{};
+      const std::size_t count = std::min(kTogether, items.size() - i);
+      for (unsigned level = 0; level < levels; ++level)
+        for (std::size_t j = 0; j < count; ++j) {
+          const Plane plane = planes[node[j]];
+          node[j] = 2 * node[j] + 1 + (key(items[i + j], plane.axis) >= plane.at ? 1 : 0);
+        }
+      for (std::size_t j = 0; j < count; ++j) cells[i + j] = node[j] + 1 - (1u << levels);
+    }
+    return cells;
+  }
+};
+
+template <int Axes, class Item, class Key>
+void divide(Cells& cells, std::span<Item> sample, std::size_t node, const Key& key) {
+  if (node >= cells.planes.size()) return;
+  const int axis = widestAxis<Axes>(sample.size(), [&](std::size_t i, int k) { return key(sample[i], k); });
+  const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
+  std::nth_element(sample.begin(), middle, sample.end(),
+                   [&](const Item& a, const Item& b) { return key(a, axis) < key(b, axis); });
+  cells.planes[node] = {axis, key(*middle, axis)};
+  divide<Axes>(cells, sample.first(sample.size() / 2), 2 * node + 1, key);
+  divide<Axes>(cells, sample.subspan(sample.size() / 2), 2 * node + 2, key);
+}
+
+/// Puts the items cell by cell; about `perCell` share one.
+template <int Axes, class Item, class Key>
+void layIntoCells(std::span<const Item> items, Item* out, std::size_t perCell, const Key& key) {
+  constexpr std::size_t kSamples = 16;  // a cell
+  Cells cells;
+  cells.levels = static_cast<unsigned>(std::bit_width(items.size() / perCell));
+  cells.planes.resize((std::size_t{1} << cells.levels) - 1);
+  std::vector<Item> sample;
+  const std::size_t step = std::max<std::size_t>(1, items.size() / (kSamples << cells.levels));
+  for (std::size_t i = 0; i < items.size(); i += step) sample.push_back(items[i]);
+  divide<Axes>(cells, std::span(sample), 0, key);
+  const std::vector<std::uint32_t> cell = cells.cellsOf(items, key);
+  std::vector<std::uint32_t> next((std::size_t{1} << cells.levels) + 1, 0);
+  for (const std::uint32_t c : cell) ++next[c + 1];
+  for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
+  for (std::size_t i = 0; i < items.size(); ++i) out[next[cell[i]]++] = items[i];
+}
+
+}  // namespace spreading
+
+/// Halves the items again and again along their widest axis. `key(item, axis)` is finite.
 /// 1. The order depends on the items alone, not on the number of threads.
 template <int Axes, class Item, class Key>
-void spread(std::span<Item> items, const TreeShape& shape, const Key& key, unsigned threads) {
-  constexpr std::size_t kWorthAThread = 100'000;
-  const std::size_t run = shape.childRun(items.size());
-  if (run == 0) return;
-  const std::size_t runs = (items.size() + run - 1) / run, half = (runs + 1) / 2 * run;
-  const int axis = widestAxis<Axes, Item>(items, key);
-  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
-                   [&](const Item& a, const Item& b) { return key(a, axis) < key(b, axis); });
-  const auto first = items.first(half), rest = items.subspan(half);
-  if (threads < 2 || items.size() < kWorthAThread) {
-    spread<Axes>(first, shape, key, 1);
-    spread<Axes>(rest, shape, key, 1);
-    return;
-  }
-  std::jthread other([&] { spread<Axes>(first, shape, key, threads / 2); });
-  spread<Axes>(rest, shape, key, threads - threads / 2);
+void spread(std::vector<Item>& items, const TreeShape& shape, const Key& key, unsigned threads) {
+  const std::size_t cached = shape.leaf * shape.arity * shape.arity / 2;
+  const auto rough = std::make_unique_for_overwrite<Item[]>(items.size());
+  if (items.size() > 4 * cached)
+    spreading::layIntoCells<Axes>(std::span<const Item>(items), rough.get(), cached, key);
+  else
+    std::copy(items.begin(), items.end(), rough.get());
+  const std::size_t runs = (items.size() + cached - 1) / cached;
+  const auto parts = static_cast<unsigned>(std::clamp<std::size_t>(runs / 16, 1, threads));
+  inParts(runs, 1, parts, [&](unsigned, std::size_t first, std::size_t last) {
+    for (std::size_t begin = first * cached; begin < std::min(last * cached, items.size()); begin += cached)
+      spreading::halve<Axes>(std::span<const Item>(rough.get() + begin, std::min(cached, items.size() - begin)),
+                             items.data() + begin, shape, key);
+  });
 }
 
 }  // namespace umbrage::shadow
