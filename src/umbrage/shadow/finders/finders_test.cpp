@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <map>
@@ -14,6 +15,7 @@
 #include "umbrage/shadow/finders/finder.hpp"
 #include "umbrage/shadow/finders/many_lights.hpp"
 #include "umbrage/shadow/finders/potentially_visible.hpp"
+#include "umbrage/shadow/finders/spread.hpp"
 #include "umbrage/shadow/volume.hpp"
 
 namespace umbrage::shadow {
@@ -272,6 +274,39 @@ TEST(DualSpace, TellsNothingForLightsBeyondAllNumbers) {
   for (const Vec4& light : {Vec4(1e200, 0, 0, 1), Vec4(1e-200, 0, 0, 0), Vec4(0, 0, 0, 0)})
     for (const FinderKind kind : kClever)
       EXPECT_EQ(makeFinder(kind, casters)->find(light).edges, expected(*casters, light, {})) << name(kind);
+}
+
+TEST(Spread, SelectsTheSmallest) {
+  Random random(2);
+  for (int round = 0; round < 20'000; ++round) {
+    std::vector<std::uint64_t> a(static_cast<std::size_t>(between(random, 2, 90)));
+    const int range = between(random, 1, 60), kind = between(random, 0, 2);
+    for (std::uint32_t i = 0; i < a.size(); ++i) {
+      const float value = kind == 0 ? float(between(random, -range, range)) : (kind == 1 ? float(i) : -float(i));
+      a[i] = spreading::sortable(value, i);
+    }
+    std::vector<std::uint64_t> sorted = a;
+    std::sort(sorted.begin(), sorted.end());
+    const auto k = static_cast<std::size_t>(between(random, 1, static_cast<int>(a.size()) - 1));
+    spreading::select(a.data(), a.size(), k);
+    std::sort(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(k));
+    std::sort(a.begin() + static_cast<std::ptrdiff_t>(k), a.end());
+    ASSERT_EQ(a, sorted);
+  }
+}
+
+TEST(Spread, OrdersTheSameInAnyNumberOfThreadsAndLosesNothing) {
+  Random random(3);
+  std::vector<std::array<float, 2>> points(60'000);
+  for (auto& p : points) p = {float(between(random, 0, 300)), float(between(random, 0, 9))};
+  const auto key = [](const std::array<float, 2>& p, int k) { return p[static_cast<std::size_t>(k)]; };
+  auto one = points, three = points;
+  spread<2>(one, {8, 16}, key, 1);
+  spread<2>(three, {8, 16}, key, 3);
+  EXPECT_EQ(one, three);
+  std::sort(points.begin(), points.end());
+  std::sort(one.begin(), one.end());
+  EXPECT_EQ(one, points);
 }
 
 // --- cost, in edges -------------------------------------------------------------------------------------------------------

@@ -50,9 +50,10 @@ inline void select(std::uint64_t* a, std::size_t n, std::size_t k) {
     std::array<std::uint64_t, 5> sample{a[0], a[n / 4], a[n / 2], a[n - n / 4], a[n - 1]};
     for (std::size_t i = 1; i < sample.size(); ++i)
       for (std::size_t j = i; j > 0; --j) {
-        const auto [low, high] = std::minmax(sample[j - 1], sample[j]);
-        sample[j - 1] = low, sample[j] = high;
+        const std::uint64_t a0 = sample[j - 1], a1 = sample[j];
+        sample[j - 1] = std::min(a0, a1), sample[j] = std::max(a0, a1);
       }
+    // Larger than one of the sample and smaller than another, so neither part is empty.
     const std::uint64_t pivot = sample[std::clamp<std::size_t>(k * 5 / n, 1, 3)];
     std::size_t less = 0;
     for (std::size_t i = 0; i < n; ++i) {
