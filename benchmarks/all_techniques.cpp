@@ -1,7 +1,5 @@
 #include "all_techniques.hpp"
 
-#include <algorithm>
-
 #include "umbrage/techniques/cpu/registry.hpp"
 #ifdef UMBRAGE_HAVE_TECHNIQUES_GL
 #include "umbrage/techniques/gl/registry.hpp"
@@ -15,12 +13,6 @@ std::vector<shadow::TechniqueEntry> allTechniques() {
   for (auto& entry : techniques::openGlTechniques()) all.push_back(std::move(entry));
 #endif
   return all;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 }  // namespace umbrage::benchmarks

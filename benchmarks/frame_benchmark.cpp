@@ -4,6 +4,7 @@
 #include <map>
 
 #include "all_techniques.hpp"
+#include "median.hpp"
 #include "views.hpp"
 
 namespace umbrage::benchmarks {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "all_techniques.hpp"
 #include "bare_rays.hpp"
+#include "median.hpp"
 #include "umbrage/techniques/cpu/registry.hpp"
 
 namespace umbrage::benchmarks {

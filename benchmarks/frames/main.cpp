@@ -2,6 +2,7 @@
 // that turns from round to round, so that whatever disturbs the machine disturbs all alike. Times are compared round by round.
 //   umbrage_frames OUT.json [rounds=N] [shot=PART-OF-A-NAME] [fact:NAME=VALUE ..] [peer:NAME=COMMAND ..]
 // Scenes (for peers) and pictures are written beside OUT.json. `fact` goes into the file as it is.
+#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -10,7 +11,11 @@
 
 #include "all_techniques.hpp"
 #include "contestant.hpp"
+#include "median.hpp"
 #include "umbrage/base/file.hpp"
+#ifdef UMBRAGE_HAVE_TECHNIQUES_GL
+#include "umbrage/gl/context.hpp"
+#endif
 
 namespace umbrage::benchmarks {
 namespace {
@@ -22,6 +27,15 @@ struct Options {
   nlohmann::ordered_json facts = nlohmann::ordered_json::object();
   std::vector<Entry> entries;
 };
+
+// What this program knows of its own making.
+void addOwnFacts(nlohmann::ordered_json& facts) {
+  facts["Embree"] = RTC_VERSION_STRING;
+  facts["compiler"] = __VERSION__;
+#ifdef UMBRAGE_HAVE_TECHNIQUES_GL
+  if (const auto context = gl::Context::createHeadless()) facts["OpenGL"] = (*context)->renderer();
+#endif
+}
 
 // One contestant's row of a shot.
 struct Row {
@@ -122,6 +136,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   options.out = argv[1];
+  addOwnFacts(options.facts);
   if (auto done = run(options); !done) {
     std::cerr << done.error().text() << "\n";
     return EXIT_FAILURE;

@@ -1,8 +1,8 @@
 #include <chrono>
 
-#include "all_techniques.hpp"
 #include "bare_rays.hpp"
 #include "contestant.hpp"
+#include "median.hpp"
 #include "umbrage/png/png.hpp"
 #include "umbrage/shadow/composite.hpp"
 #include "umbrage/techniques/cpu/registry.hpp"

@@ -33,6 +33,8 @@ std::string line(double x1, double y1, double x2, double y2, const char* stroke)
                      stroke);
 }
 
+std::string tickText(double value) { return value >= 1e6 ? shortNumber(value) : fmt::format("{:g}", value); }
+
 // Values onto pixels, with round ticks.
 class Ruler {
  public:
@@ -140,10 +142,10 @@ std::string svg(const LineChart& chart) {
   const Ruler x = u.ruler(chart.x, left, right), y = v.ruler(chart.y, bottom, top);
   for (double tick : x.ticks())
     out += line(x.at(tick), top, x.at(tick), bottom, "#dddddd") +
-           text(x.at(tick), bottom + 18, "middle", shortNumber(tick));
+           text(x.at(tick), bottom + 18, "middle", tickText(tick));
   for (double tick : y.ticks())
     out +=
-        line(left, y.at(tick), right, y.at(tick), "#dddddd") + text(left - 8, y.at(tick) + 4, "end", shortNumber(tick));
+        line(left, y.at(tick), right, y.at(tick), "#dddddd") + text(left - 8, y.at(tick) + 4, "end", tickText(tick));
   for (std::size_t i = 0; i < chart.series.size(); ++i) out += curve(chart.series[i], x, y, colour(i));
   out += text((left + right) / 2, bottom + 42, "middle", chart.x.label);
   out += text(0, 0, "middle", chart.y.label,
@@ -165,7 +167,7 @@ std::string svg(const BarChart& chart) {
   const double bottom = top + double(chart.groups.size()) * (kBar * double(chart.series.size()) + kGap);
   for (double tick : ruler.ticks())
     out += line(ruler.at(tick), top, ruler.at(tick), bottom, "#dddddd") +
-           text(ruler.at(tick), bottom + 18, "middle", shortNumber(tick));
+           text(ruler.at(tick), bottom + 18, "middle", tickText(tick));
   double y = top + kGap / 2;
   for (std::size_t g = 0; g < chart.groups.size(); ++g) {
     out += text(left - 8, y + kBar * double(chart.series.size()) / 2 + 4, "end", chart.groups[g]);
