@@ -141,11 +141,10 @@ std::string svg(const LineChart& chart) {
   const double left = 80, bottom = top + 400, right = kWidth - kRight;
   const Ruler x = u.ruler(chart.x, left, right), y = v.ruler(chart.y, bottom, top);
   for (double tick : x.ticks())
-    out += line(x.at(tick), top, x.at(tick), bottom, "#dddddd") +
-           text(x.at(tick), bottom + 18, "middle", tickText(tick));
-  for (double tick : y.ticks())
     out +=
-        line(left, y.at(tick), right, y.at(tick), "#dddddd") + text(left - 8, y.at(tick) + 4, "end", tickText(tick));
+        line(x.at(tick), top, x.at(tick), bottom, "#dddddd") + text(x.at(tick), bottom + 18, "middle", tickText(tick));
+  for (double tick : y.ticks())
+    out += line(left, y.at(tick), right, y.at(tick), "#dddddd") + text(left - 8, y.at(tick) + 4, "end", tickText(tick));
   for (std::size_t i = 0; i < chart.series.size(); ++i) out += curve(chart.series[i], x, y, colour(i));
   out += text((left + right) / 2, bottom + 42, "middle", chart.x.label);
   out += text(0, 0, "middle", chart.y.label,
