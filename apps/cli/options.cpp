@@ -16,6 +16,12 @@ Result<Ground> parseGround(const std::string& word) {
   return Ground{*height};
 }
 
+Result<shadow::VolumeFill> parseFill(const std::string& word) {
+  if (word == "reduced") return shadow::VolumeFill::reduced;
+  if (word == "plain") return shadow::VolumeFill::plain;
+  return fail(ErrorCode::usage, fmt::format("'{}' is neither reduced nor plain", word));
+}
+
 // parseNumber, parseDegrees with their limits.
 auto numberIn(double low, double high) {
   return [low, high](const std::string& word) { return parseNumber(word, low, high); };
@@ -68,6 +74,9 @@ void addGroundOption(CLI::App& app, ViewOptions& options) {
 void addSilhouetteOption(CLI::App& app, ViewOptions& options) {
   addValue(app, "--silhouette", "NAME|auto", "How shadow volumes find their silhouettes; changes times, no pixel (default auto)",
            options.silhouettes, parseFinder, kPicture);
+  addValue(app, "--volume-fill", "reduced|plain",
+           "Whether shadow volumes leave out what changes no pixel; changes times, no pixel (default reduced)", options.fill,
+           parseFill, kPicture);
 }
 
 }  // namespace umbrage::cli

@@ -9,6 +9,7 @@
 #include "umbrage/base/angle.hpp"
 #include "umbrage/scene/scene.hpp"
 #include "umbrage/shadow/finders/finder.hpp"
+#include "umbrage/shadow/technique.hpp"
 
 namespace umbrage::cli {
 
@@ -44,6 +45,7 @@ struct ViewOptions {
   double shadowRoom = 0.2;  ///< how far around the scene its ground is framed too, in heights of the scene
   int antialias = 1;        ///< the picture is drawn this many times as wide and high, and averaged
   shadow::FinderKind silhouettes = shadow::FinderKind::automatic;
+  shadow::VolumeFill fill = shadow::VolumeFill::reduced;
 };
 void addCameraOptions(CLI::App& app, ViewOptions& options);
 void addLightOptions(CLI::App& app, ViewOptions& options);
@@ -57,6 +59,7 @@ struct View {
   scene::Camera camera;
   std::vector<scene::Light> lights;
   shadow::FinderKind silhouettes = shadow::FinderKind::automatic;
+  shadow::VolumeFill fill = shadow::VolumeFill::reduced;
   std::string cameraReason;
   std::string lightReason;
 };

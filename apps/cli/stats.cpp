@@ -35,6 +35,11 @@ Json lightJson(const scene::Light& light, const shadow::LightStats& stats, const
           {"edges_tested", stats.edgesTested},
           {"silhouette_edges", stats.silhouetteEdges},
           {"volume_triangles", stats.volumeTriangles},
+          {"left_out",
+           {{"casters_in_shadow", stats.castersHidden},
+            {"casters_behind", stats.castersBehind},
+            {"sides_behind", stats.sidesBehind}}},
+          {"endless_casters", stats.endlessCasters},
           {"lit_pixels", litPixels(mask)}};
 }
 

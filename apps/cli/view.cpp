@@ -72,6 +72,7 @@ std::string cameraReason(const ViewOptions& options) {
 Result<View> makeView(scene::Scene scene, const ViewOptions& options) {
   View view;
   view.silhouettes = options.silhouettes;
+  view.fill = options.fill;
   // Framed before the ground is added: the ground is 64 times as large as the scene.
   const auto camera = makeCamera(scene, options);
   if (!camera) return tl::unexpected(camera.error());

@@ -81,7 +81,7 @@ TEST_P(HostState, ComesBackFromEveryTechniqueInTheHostsContext) {
   const auto geometry = shadow::makeGeometry(boxes());
   const std::array lights{kSun, kSpot};
   for (const auto make : {techniques::makeZFail, techniques::makeZPass}) {
-    const auto technique = make(nullptr);
+    const auto technique = make(nullptr, {});
     ASSERT_TRUE(technique->prepare(geometry));
     const auto expected = technique->shade({camera(), lights});
     ASSERT_TRUE(expected);

@@ -12,6 +12,7 @@ GLenum internalFormat(Format format) {
     case Format::grey8: return GL_R8;
     case Format::rgba8: return GL_RGBA8;
     case Format::rgba16f: return GL_RGBA16F;
+    case Format::rg32f: return GL_RG32F;
     case Format::id32: return GL_R32UI;
     case Format::depth32fStencil8: return GL_DEPTH32F_STENCIL8;
     case Format::depth24Stencil8: return GL_DEPTH24_STENCIL8;

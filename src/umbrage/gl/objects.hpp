@@ -52,7 +52,7 @@ class Buffer {
   std::size_t bytes_ = 0;
 };
 
-enum class Format { grey8, rgba8, rgba16f, id32, depth32fStencil8, depth24Stencil8 };
+enum class Format { grey8, rgba8, rgba16f, rg32f, id32, depth32fStencil8, depth24Stencil8 };
 
 /// A picture on the graphics card, one level, one sample.
 class Texture {

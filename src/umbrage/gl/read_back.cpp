@@ -27,6 +27,10 @@ image::RgbaImage readRgba(const HostScope&, const Framebuffer& from, int width, 
   return read<image::Rgba8>(from, width, height, GL_RGBA, GL_UNSIGNED_BYTE);
 }
 
+image::Image<Vec2f> readPairs(const HostScope&, const Framebuffer& from, int width, int height) {
+  return read<Vec2f>(from, width, height, GL_RG, GL_FLOAT);
+}
+
 image::Image<std::uint32_t> readIds(const HostScope&, const Framebuffer& from, int width, int height) {
   return read<std::uint32_t>(from, width, height, GL_RED_INTEGER, GL_UNSIGNED_INT);
 }

@@ -5,6 +5,7 @@
 #include "umbrage/gl/host_scope.hpp"
 #include "umbrage/gl/objects.hpp"
 #include "umbrage/image/image.hpp"
+#include "umbrage/math/vec.hpp"
 
 namespace umbrage::gl {
 
@@ -13,6 +14,7 @@ namespace umbrage::gl {
 
 [[nodiscard]] image::GreyImage readGrey(const HostScope& scope, const Framebuffer& from, int width, int height);
 [[nodiscard]] image::RgbaImage readRgba(const HostScope& scope, const Framebuffer& from, int width, int height);
+[[nodiscard]] image::Image<Vec2f> readPairs(const HostScope& scope, const Framebuffer& from, int width, int height);
 [[nodiscard]] image::Image<std::uint32_t> readIds(const HostScope& scope, const Framebuffer& from, int width,
                                                   int height);
 [[nodiscard]] image::Image<float> readDepth(const HostScope& scope, const Framebuffer& from, int width, int height);

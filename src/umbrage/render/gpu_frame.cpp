@@ -39,6 +39,11 @@ Result<void> GpuFrame::needMasks(std::size_t count) {
   return {};
 }
 
+Result<void> GpuFrame::needTiles() {
+  if (tiles_.name() != 0) return {};
+  return add(tiles_, tilesTarget_, gl::Format::rg32f, tilesFor(width()), tilesFor(height()), nullptr);
+}
+
 Result<void> GpuFrame::needPicture() {
   if (sum_.name() != 0) return {};
   if (auto done = add(picture_, pictureTarget_, gl::Format::rgba8, width(), height(), nullptr); !done) return done;

@@ -7,19 +7,25 @@
 
 namespace umbrage::render {
 
-/// The pictures that a frame is drawn into, of one size: triangle ids with depth and stencil; a mask per light and the lit
-/// picture when they are asked for. REQUIRES: its context is current when it is made, used and destroyed.
+/// Pixels a side of a tile in which receivers are summed up.
+inline constexpr int kTile = 16;
+[[nodiscard]] constexpr int tilesFor(int pixels) { return (pixels + kTile - 1) / kTile; }
+
+/// The pictures that a frame is drawn into, of one size: triangle ids with depth and stencil; the tiles of a light's receivers, a mask
+/// per light and the lit picture when they are asked for. REQUIRES: its context is current when it is made, used and destroyed.
 class GpuFrame {
  public:
   /// Errors: ErrorCode::device when the size is beyond the driver's or memory is short.
   [[nodiscard]] static Result<GpuFrame> make(int width, int height);
   [[nodiscard]] Result<void> needMasks(std::size_t count);
   [[nodiscard]] Result<void> needPicture();
+  [[nodiscard]] Result<void> needTiles();
 
   [[nodiscard]] int width() const { return depthStencil_.width(); }
   [[nodiscard]] int height() const { return depthStencil_.height(); }
 
   [[nodiscard]] const gl::Texture& ids() const { return ids_; }
+  [[nodiscard]] const gl::Texture& depthStencil() const { return depthStencil_; }
   [[nodiscard]] const gl::Texture& sum() const { return sum_; }
   /// The finished picture, sRGB-encoded RGBA8, row 0 at the bottom: for a host to show.
   [[nodiscard]] const gl::Texture& picture() const { return picture_; }
@@ -27,6 +33,7 @@ class GpuFrame {
   [[nodiscard]] const gl::Framebuffer& surfaceTarget() const { return surfaceTarget_; }
   [[nodiscard]] const gl::Framebuffer& stencilTarget() const { return stencilTarget_; }
   [[nodiscard]] const gl::Framebuffer& maskTarget(std::size_t light) const { return masks_[light].target; }
+  [[nodiscard]] const gl::Framebuffer& tilesTarget() const { return tilesTarget_; }
   [[nodiscard]] const gl::Framebuffer& sumTarget() const { return sumTarget_; }
   [[nodiscard]] const gl::Framebuffer& pictureTarget() const { return pictureTarget_; }
 
@@ -36,9 +43,9 @@ class GpuFrame {
     gl::Framebuffer target;
   };
   GpuFrame() = default;
-  gl::Texture ids_, depthStencil_, sum_, picture_;
+  gl::Texture ids_, depthStencil_, tiles_, sum_, picture_;
   std::vector<Mask> masks_;
-  gl::Framebuffer surfaceTarget_, stencilTarget_, sumTarget_, pictureTarget_;
+  gl::Framebuffer surfaceTarget_, stencilTarget_, tilesTarget_, sumTarget_, pictureTarget_;
 };
 
 }  // namespace umbrage::render

@@ -1,5 +1,6 @@
 #version 450 core
-// Light mask: 1 where the light arrives. The stencil test has already removed what lies in shadow.
+// Light mask: 1 where the light arrives. The stencil test has already removed what lies in shadow, before this runs: nothing is
+// discarded here, or the test would have to wait.
 layout(std140, binding = 0) uniform View {
   mat4 toClip;     // from (position - eye, w)
   vec4 eyeHigh;    // the eye in two floats a component, so that position - eye is exact near the eye
@@ -41,8 +42,9 @@ layout(location = 0) out vec4 lit;
 
 void main() {
   uint id = texelFetch(ids, ivec2(gl_FragCoord.xy), 0).r;
-  if (id == kNone || !facesLight(id)) discard;
+  lit = vec4(0.0);
+  if (id == kNone || !facesLight(id)) return;
   vec3 ray = rayCorner.xyz + gl_FragCoord.x * rayX.xyz + gl_FragCoord.y * rayY.xyz;
-  if (cone.w >= -1.0 && !insideCone(seenPoint(id, ray) - light.xyz)) discard;
+  if (cone.w >= -1.0 && !insideCone(seenPoint(id, ray) - light.xyz)) return;
   lit = vec4(1.0);
 }

@@ -151,7 +151,7 @@ Result<image::RgbaImage> drawLayer(const std::vector<Mark>& marks, const View& v
   placement.viewport = {0, 0, camera.width, camera.height};
   Programs programs;
   const std::vector<GpuLight> none;
-  run(scope, planPasses(placement, view.reversed, {}, Product::masks),
+  run(scope, planSurfaces(placement, view.reversed),
       {.programs = programs,
        .positions = gpuScene->positions(),
        .scene = &*gpuScene,

@@ -8,7 +8,7 @@ namespace {
 using gl::Compare;
 using gl::StencilOp;
 
-constexpr std::array kTargets{"surface", "stencil", "mask", "sum", "picture", "host"};
+constexpr std::array kTargets{"surface", "tiles", "stencil", "mask", "sum", "picture", "host"};
 constexpr std::array kDraws{"nothing",         "surfaces",        "surfaces that reach far",
                             "sides by z-pass", "sides by z-fail", "caps by z-fail",
                             "the screen"};
@@ -72,7 +72,7 @@ struct Planner {
     PassStep s = step(name, "volumes", stencilTarget());
     s.light = light;
     s.group = group;
-    s.shader = Shader::volume;
+    s.shader = plan.finite ? Shader::finiteVolume : Shader::volume;
     s.draw = draw;
     s.state.depth = {.test = true, .pass = pass, .write = false, .clamp = true};
     s.state.stencil = {.test = true, .compare = Compare::always, .front = front, .back = back};
@@ -172,10 +172,24 @@ std::string describe(const PassList& list) {
   return out;
 }
 
-PassList planPasses(const gl::PassState& placement, bool reversed, const std::vector<LightPlan>& lights,
+PassList planSurfaces(const gl::PassState& placement, bool reversed) {
+  Planner planner{placement, reversed, Product::masks, {}};
+  planner.surfaces();
+  return std::move(planner.list);
+}
+
+PassList planTiles(int light, const gl::Rect& tiles) {
+  gl::PassState placement;
+  placement.viewport = tiles;
+  Planner planner{placement, true, Product::masks, {}};
+  PassStep s = planner.screen("how far its receivers are", "tiles", Target::tiles, Shader::receiverTiles);
+  s.light = light;
+  return {{s}};
+}
+
+PassList planLights(const gl::PassState& placement, bool reversed, const std::vector<LightPlan>& lights,
                     Product product) {
   Planner planner{placement, reversed, product, {}};
-  if (product != Product::hostStencil) planner.surfaces();
   if (product == Product::picture) planner.ambient();
   for (int i = 0; i < static_cast<int>(lights.size()); ++i) {
     const LightPlan& plan = lights[static_cast<std::size_t>(i)];

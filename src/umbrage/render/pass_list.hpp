@@ -10,8 +10,8 @@
 
 namespace umbrage::render {
 
-enum class Target { surface, stencil, mask, sum, picture, host };
-enum class Shader { none, surface, largeSurface, volume, keepShadow, lightMask, ambient, light, encode };
+enum class Target { surface, tiles, stencil, mask, sum, picture, host };
+enum class Shader { none, surface, largeSurface, receiverTiles, volume, finiteVolume, keepShadow, lightMask, ambient, light, encode };
 /// What is drawn: nothing, the surfaces (those that reach far apart), a part of a light's volumes, one triangle over the whole target.
 enum class Draw { nothing, surfaces, largeSurfaces, passSides, failSides, failCaps, screen };
 
@@ -51,6 +51,7 @@ struct LightPlan {
   /// Caps are compared with the depth, for casters that are not in the depth buffer themselves (drawn later, or transparent);
   /// where they are, that would make caps fight with the surfaces they lie on.
   bool compareCaps = false;
+  bool finite = false;  ///< the volumes' ends are given (LightVolume::farPoints)
   gl::Rect volumeArea, litArea;
 };
 
@@ -60,8 +61,15 @@ enum class Product {
   hostStencil,  ///< the first light's shadows in the stencil of a host's own framebuffer, over the host's depth
 };
 
-/// Plans a frame. `placement`: viewport, clip control, depth range and front-face sense for everything drawn in perspective.
-[[nodiscard]] PassList planPasses(const gl::PassState& placement, bool reversed, const std::vector<LightPlan>& lights,
+/// Plans what comes before the lights: the surfaces that the camera sees. `placement`: viewport, clip control, depth range and
+/// front-face sense for everything drawn in perspective.
+[[nodiscard]] PassList planSurfaces(const gl::PassState& placement, bool reversed);
+
+/// Plans how far the receivers of a light are, for ReceiverTiles. `tiles`: how many there are.
+[[nodiscard]] PassList planTiles(int light, const gl::Rect& tiles);
+
+/// Plans the lights, and what is made of them. REQUIRES: planSurfaces() has been run, but for Product::hostStencil.
+[[nodiscard]] PassList planLights(const gl::PassState& placement, bool reversed, const std::vector<LightPlan>& lights,
                                   Product product);
 
 }  // namespace umbrage::render

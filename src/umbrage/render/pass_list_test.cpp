@@ -15,50 +15,60 @@ gl::PassState placement() {
   return state;
 }
 
+PassList wholeFrame(const std::vector<LightPlan>& lights, Product product) {
+  PassList list = planSurfaces(placement(), true);
+  for (const PassStep& step : planLights(placement(), true, lights, product).steps) list.steps.push_back(step);
+  return list;
+}
+
 TEST(PlanPasses, ZFailForOneLight) {
   const LightPlan light{
       .groups = {{.failSides = true, .failCaps = true}}, .volumeArea = {8, 4, 20, 20}, .litArea = kAll};
-  EXPECT_TRUE(approval::approved("passes_zfail", describe(planPasses(placement(), true, {light}, Product::masks))));
+  EXPECT_TRUE(approval::approved("passes_zfail", describe(wholeFrame({light}, Product::masks))));
 }
 
 TEST(PlanPasses, ZPassFromInsideTwoVolumesWithOneCasterByZFail) {
   const LightPlan light{.groups = {{.eyeCount = 2, .passSides = true, .failSides = true, .failCaps = true}},
                         .volumeArea = kAll,
                         .litArea = kAll};
-  EXPECT_TRUE(approval::approved("passes_zpass", describe(planPasses(placement(), true, {light}, Product::masks))));
+  EXPECT_TRUE(approval::approved("passes_zpass", describe(wholeFrame({light}, Product::masks))));
 }
 
 TEST(PlanPasses, PictureWithASunAndASpot) {
   const LightPlan sun{.groups = {{.passSides = true}}, .volumeArea = kAll, .litArea = kAll};
   const LightPlan spot{.groups = {{.eyeCount = 1, .passSides = true}}, .volumeArea = kAll, .litArea = {10, 10, 8, 8}};
   EXPECT_TRUE(
-      approval::approved("passes_picture", describe(planPasses(placement(), true, {sun, spot}, Product::picture))));
+      approval::approved("passes_picture", describe(wholeFrame({sun, spot}, Product::picture))));
 }
 
 TEST(PlanPasses, HostStencilWithOrdinaryDepth) {
   gl::PassState host = placement();
   host.clipDepth = gl::ClipDepth::minusOneToOne;
   const LightPlan light{.groups = {{.failSides = true, .failCaps = true}}, .volumeArea = kAll, .litArea = kAll};
-  EXPECT_TRUE(approval::approved("passes_host", describe(planPasses(host, false, {light}, Product::hostStencil))));
+  EXPECT_TRUE(approval::approved("passes_host", describe(planLights(host, false, {light}, Product::hostStencil))));
 }
 
 TEST(PlanPasses, SeveralGroupsShareTheStencil) {
   const GroupPlan group{.eyeCount = 129, .passSides = true};
   const LightPlan light{.groups = {group, group}, .volumeArea = kAll, .litArea = kAll};
   EXPECT_TRUE(
-      approval::approved("passes_groups", describe(planPasses(placement(), true, {light}, Product::hostStencil))));
+      approval::approved("passes_groups", describe(planLights(placement(), true, {light}, Product::hostStencil))));
 }
 
 TEST(PlanPasses, WrapsTheEyeCountIntoEightBits) {
   const LightPlan light{.groups = {{.eyeCount = 257}}, .volumeArea = kAll, .litArea = kAll};
-  const PassList list = planPasses(placement(), true, {light}, Product::hostStencil);
+  const PassList list = planLights(placement(), true, {light}, Product::hostStencil);
   ASSERT_EQ(list.steps.size(), 1u);
   EXPECT_EQ(list.steps[0].clearStencil, 1);
 }
 
+TEST(PlanPasses, TilesOfReceivers) {
+  EXPECT_TRUE(approval::approved("passes_tiles", describe(planTiles(0, {0, 0, 4, 3}))));
+}
+
 TEST(PlanPasses, DrawsNothingForALightThatReachesNoPixel) {
   const LightPlan light{.groups = {{.failSides = true, .failCaps = true}}, .volumeArea = kAll, .litArea = {}};
-  EXPECT_TRUE(planPasses(placement(), true, {light}, Product::hostStencil).steps.empty());
+  EXPECT_TRUE(planLights(placement(), true, {light}, Product::hostStencil).steps.empty());
 }
 
 }  // namespace

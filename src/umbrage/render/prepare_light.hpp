@@ -6,13 +6,18 @@
 #include <vector>
 
 #include "umbrage/render/pass_list.hpp"
+#include "umbrage/render/receiver_tiles.hpp"
+#include "umbrage/render/volume_options.hpp"
 #include "umbrage/shadow/eye_count.hpp"
 #include "umbrage/shadow/technique.hpp"
 
 namespace umbrage::render {
 
-/// How the stencil counts. zPass falls back to z-fail for casters that the eye is too close to (shadow::countAtEye).
-enum class Counting { zFail, zPass };
+/// How the stencil counts. zPass starts from the count at the eye and falls back to z-fail for casters that the eye is too close to
+/// (shadow::countAtEye); zMixed starts from 0 and takes z-fail for every caster that may lie between the eye and the light
+/// (shadow::chooseAtEye).
+enum class Counting { zFail, zPass, zMixed };
+[[nodiscard]] const char* name(Counting counting);
 
 /// A run of indices in LightVolume::indices.
 struct IndexRange {
@@ -30,6 +35,7 @@ struct LightVolume {
   Vec4 light{0.0};  ///< homogeneous, relative to the casters' origin
   Counting counting = Counting::zFail;
   std::vector<std::uint32_t> indices;  ///< into doubled vertices (shadow::ShadowVolume)
+  std::vector<Vec4f> farPoints;        ///< shadow::farPoints; empty: all at infinity
   /// One, unless a ray may meet more surfaces than 8 bits can count; then as many as 7 bits can, one bit keeping the result.
   std::vector<VolumeGroup> groups;
 };
@@ -40,9 +46,22 @@ using PhaseEnd = std::function<void(const char*)>;
 /// The count of a group is below these: of the only group, or of one among several.
 inline constexpr int kWholeStencil = 255, kSharedStencil = 127;
 
-/// `light` and `eye` are relative to the origin of the finder's casters. Fills all of `stats` but its reason.
-[[nodiscard]] LightVolume prepareVolume(const shadow::SilhouetteFinder& finder, const Vec4& light, const Vec3& eye,
-                                        Counting counting, shadow::LightStats& stats, const PhaseEnd& ended = {});
+/// What shadow volumes are made for. Points and boxes are relative to the origin of the finder's casters.
+struct VolumeRequest {
+  const shadow::SilhouetteFinder& finder;
+  Vec4 light{0.0};
+  Vec3 eye{0.0};
+  Counting counting = Counting::zFail;
+  VolumeOptions options = kPlainVolumes;
+  Box3 receivers;                        ///< all that can receive shadow; needed for finite volumes
+  const ReceiverTiles* tiles = nullptr;  ///< needed to leave out hidden parts
+
+  [[nodiscard]] const shadow::CasterSet& casters() const { return finder.casters(); }
+};
+
+/// Fills all of `stats` but its reason.
+[[nodiscard]] LightVolume prepareVolume(const VolumeRequest& request, shadow::LightStats& stats,
+                                        const PhaseEnd& ended = {});
 
 /// What a plan needs to know of it.
 [[nodiscard]] std::vector<GroupPlan> planGroups(const LightVolume& volume);

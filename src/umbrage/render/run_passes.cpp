@@ -4,10 +4,12 @@
 #include <umbrage_shaders/encode_frag.hpp>
 #include <umbrage_shaders/light_frag.hpp>
 #include <umbrage_shaders/light_mask_frag.hpp>
+#include <umbrage_shaders/receiver_tiles_frag.hpp>
 #include <umbrage_shaders/screen_vert.hpp>
 #include <umbrage_shaders/surface_frag.hpp>
 #include <umbrage_shaders/surface_large_frag.hpp>
 #include <umbrage_shaders/surface_vert.hpp>
+#include <umbrage_shaders/volume_far_vert.hpp>
 #include <umbrage_shaders/volume_frag.hpp>
 #include <umbrage_shaders/volume_vert.hpp>
 
@@ -23,6 +25,8 @@ gl::Program compile(Shader shader) {
     case Shader::none: break;
     case Shader::surface: return {kSurfaceVert, kSurfaceFrag};
     case Shader::largeSurface: return {kSurfaceVert, kSurfaceLargeFrag};
+    case Shader::receiverTiles: return {kScreenVert, kReceiverTilesFrag};
+    case Shader::finiteVolume: return {kVolumeFarVert, kVolumeFrag};
     case Shader::volume: return {kVolumeVert, kVolumeFrag};
     case Shader::keepShadow: return {kScreenVert, kVolumeFrag};
     case Shader::lightMask: return {kScreenVert, kLightMaskFrag};
@@ -37,6 +41,7 @@ gl::Program compile(Shader shader) {
 unsigned targetOf(const PassStep& step, const gl::HostScope& scope, const RunInput& input) {
   switch (step.target) {
     case Target::surface: return input.frame->surfaceTarget().name();
+    case Target::tiles: return input.frame->tilesTarget().name();
     case Target::stencil: return input.frame->stencilTarget().name();
     case Target::mask: return input.frame->maskTarget(static_cast<std::size_t>(step.light)).name();
     case Target::sum: return input.frame->sumTarget().name();
@@ -65,6 +70,7 @@ void bindScreenInputs(gl::Pass& pass, const PassStep& step, const RunInput& inpu
   if (input.materials != nullptr) pass.storage(4, *input.materials);
   pass.texture(0, input.frame->ids());
   if (step.shader == Shader::encode) pass.texture(1, input.frame->sum());
+  if (step.shader == Shader::receiverTiles) pass.texture(1, input.frame->depthStencil());
 }
 
 void draw(gl::Pass& pass, const PassStep& step, const RunInput& input, const GpuLight* light) {
@@ -72,6 +78,7 @@ void draw(gl::Pass& pass, const PassStep& step, const RunInput& input, const Gpu
   pass.use(input.programs.get(step.shader));
   pass.uniforms(0, light != nullptr ? light->view : *input.view);
   pass.storage(0, input.positions);
+  if (step.shader == Shader::finiteVolume) pass.storage(1, light->farPoints);
   const auto volume = [&](const IndexRange& range) { pass.drawIndexed(light->vertices, range.first, range.count); };
   const auto group = static_cast<std::size_t>(step.group);
   switch (step.draw) {

@@ -25,7 +25,7 @@ class Programs {
 
 /// One light's data on the graphics card.
 struct GpuLight {
-  gl::Buffer view, shading, facing, volume;
+  gl::Buffer view, shading, facing, volume, farPoints;
   gl::VertexArray vertices{volume};
   std::vector<VolumeGroup> groups;
 };

@@ -125,7 +125,8 @@ Member memberOf(const PosedCasters& posed, const StoredVolume& volume, const Vol
                 Counting counting) {
   Member m{&volume, &part, nullptr, nullptr, mirrors(posed), counting == Counting::zFail, 0};
   if (m.byZFail) return m;
-  const shadow::EyeCount atEye = shadow::countAtEye(*posed.casters, part.silhouette, eye);
+  const auto plan = counting == Counting::zMixed ? shadow::chooseAtEye : shadow::countAtEye;
+  const shadow::EyeCount atEye = plan(*posed.casters, part.silhouette, eye);
   m.byZFail = atEye.byZFailCount > 0;
   if (!m.byZFail) m.eyeCount = atEye.count;
   return m;
@@ -153,7 +154,7 @@ struct Work {
       Member m = memberOf(posed, **volume, part, pointFrom(posed, view.eye), counting);
       m.positions = *positions;
       m.view = &views[i];
-      stats.castersByZFail += counting == Counting::zPass && m.byZFail;
+      stats.castersByZFail += counting != Counting::zFail && m.byZFail;
       stats.eyeCount += m.eyeCount;
       members.push_back(m);
     }
@@ -197,7 +198,7 @@ Result<shadow::LightStats> StencilShadows::mark(const scene::Light& light, const
   const Counting counting = options.castersInDepth ? options.counting : Counting::zFail;
 
   shadow::LightStats stats;
-  stats.method = counting == Counting::zPass ? "zpass" : "zfail";
+  stats.method = name(counting);
   stats.reason = options.castersInDepth ? "chosen by the host" : "the casters are not in the depth buffer";
   memo_.beginTurn();
   while (views_.size() < casters.size()) views_.emplace_back();
@@ -215,7 +216,7 @@ Result<shadow::LightStats> StencilShadows::mark(const scene::Light& light, const
                                           placement),
                  .litArea = litArea(view, light, placement)};
   for (const Group& group : groups) plan.groups.push_back(group.plan());
-  for (const PassStep& step : planPasses(placement, view.reversed, {plan}, Product::hostStencil).steps)
+  for (const PassStep& step : planLights(placement, view.reversed, {plan}, Product::hostStencil).steps)
     runStep(scope, step, groups, programs_, nothing_);
   return stats;
 }

@@ -31,12 +31,14 @@ class PhaseClock {
 };
 
 std::string reasonFor(Counting counting, const shadow::LightStats& stats, std::size_t groups) {
+  const std::string fallen = std::to_string(stats.castersByZFail);
   std::string text = "no caps needed; the eye is outside all shadow volumes";
   if (counting == Counting::zFail)
     text = "right for every eye and every caster";
+  else if (counting == Counting::zMixed && stats.castersByZFail > 0)
+    text = fallen + " casters by z-fail, since they may lie between the eye and the light, the others by z-pass";
   else if (stats.castersByZFail > 0)
-    text = std::to_string(stats.castersByZFail) +
-           " casters by z-fail, since the eye touches a side of their shadow volumes";
+    text = fallen + " casters by z-fail, since the eye touches a side of their shadow volumes";
   else if (stats.eyeCount != 0)
     text = "no caps needed; the eye is inside " + std::to_string(stats.eyeCount) + " shadow volumes, which is counted";
   if (groups > 1)
@@ -53,8 +55,9 @@ std::vector<Vec4f> coloursOf(std::span<const scene::Material> materials) {
 
 class StencilTechnique final : public GlTechnique {
  public:
-  StencilTechnique(const shadow::Traits& traits, Counting counting, std::shared_ptr<gl::Context> context)
-      : traits_(traits), counting_(counting), context_(std::move(context)) {}
+  StencilTechnique(const shadow::Traits& traits, Counting counting, const VolumeOptions& options,
+                   std::shared_ptr<gl::Context> context)
+      : traits_(traits), counting_(counting), options_(options), context_(std::move(context)) {}
   ~StencilTechnique() override {
     const gl::CurrentContext current(context_);
     own_.reset();
@@ -145,14 +148,8 @@ class StencilTechnique final : public GlTechnique {
     if (ended) ended("facing");
 
     useFinder(frame.silhouettes);
-    std::vector<LightPlan> plans;
+    const VolumeOptions volumes = frame.fill == shadow::VolumeFill::plain ? kPlainVolumes : options_;
     while (own_->lights.size() < frame.lights.size()) own_->lights.emplace_back();
-    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-      stats.lights.emplace_back();
-      auto plan = addLight(own_->lights[i], frame.lights[i], view, camera, placement, stats.lights.back(), ended);
-      if (!plan) return tl::unexpected(plan.error());
-      plans.push_back(*plan);
-    }
     const RunInput input{.programs = own_->programs,
                          .positions = own_->scene->positions(),
                          .scene = &*own_->scene,
@@ -161,7 +158,18 @@ class StencilTechnique final : public GlTechnique {
                          .view = &own_->view,
                          .shading = &own_->shading,
                          .lights = own_->lights};
-    run(scope, planPasses(placement, view.reversed, plans, product), input, ended);
+    run(scope, planSurfaces(placement, view.reversed), input, ended);
+
+    std::vector<LightPlan> plans;
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+      stats.lights.emplace_back();
+      auto tiles = addReceivers(scope, i, frame.lights[i], view, camera, volumes, target, input, ended);
+      if (!tiles) return tl::unexpected(tiles.error());
+      auto plan = addVolume(own_->lights[i], frame.lights[i], view, volumes, *tiles, placement, stats.lights.back(), ended);
+      if (!plan) return tl::unexpected(plan.error());
+      plans.push_back(*plan);
+    }
+    run(scope, planLights(placement, view.reversed, plans, product), input, ended);
     return {};
   }
 
@@ -179,8 +187,35 @@ class StencilTechnique final : public GlTechnique {
     return own_->shading.setOne(shading);
   }
 
-  Result<LightPlan> addLight(GpuLight& gpu, const scene::Light& light, const View& view, const scene::Camera& camera,
-                             const gl::PassState& placement, shadow::LightStats& stats, const PhaseEnd& ended) {
+  // What the lit passes need to know of a light, and how far away its receivers are.
+  Result<std::optional<ReceiverTiles>> addReceivers(gl::HostScope& scope, std::size_t index, const scene::Light& light,
+                                                    const View& view, const scene::Camera& camera,
+                                                    const VolumeOptions& volumes, GpuFrame& target,
+                                                    const RunInput& input, const PhaseEnd& ended) {
+    GpuLight& gpu = own_->lights[index];
+    const scene::Surfaces& surfaces = geometry_->surfaces;
+    const Vec4 homogeneous = scene::homogeneous(light, surfaces.origin);
+    const auto facing =
+        packBits(shadow::visibleSideFacesLight(surfaces, Vec4(view.eye - surfaces.origin, 1.0), homogeneous));
+    const ViewBlock viewData = viewBlock(view, surfaces.origin, homogeneous);
+    const ShadingBlock shading = withLight(shadingBlock(camera), camera, light);
+    for (const auto& done : {gpu.view.setOne(viewData), gpu.shading.setOne(shading), gpu.facing.setAll(facing)})
+      if (!done) return tl::unexpected(done.error());
+    if (ended) ended("facing");
+    if (!volumes.hiddenParts) return std::nullopt;
+    if (auto done = target.needTiles(); !done) return tl::unexpected(done.error());
+    const int columns = tilesFor(target.width()), rows = tilesFor(target.height());
+    run(scope, planTiles(static_cast<int>(index), {0, 0, columns, rows}), input);
+    ReceiverTiles tiles(view, gl::readPairs(scope, target.tilesTarget(), columns, rows), target.width(),
+                        target.height());
+    if (ended) ended("tiles");
+    return tiles;
+  }
+
+  Result<LightPlan> addVolume(GpuLight& gpu, const scene::Light& light, const View& view,
+                              const VolumeOptions& volumes, const std::optional<ReceiverTiles>& tiles,
+                              const gl::PassState& placement,
+                              shadow::LightStats& stats, const PhaseEnd& ended) {
     const shadow::CasterSet& casters = geometry_->casters;
     const Vec3& origin = geometry_->surfaces.origin;
     const Box3& receivers = geometry_->surfaces.bounds;
@@ -188,16 +223,16 @@ class StencilTechnique final : public GlTechnique {
     Box3 counted = receivers;
     counted.add(view.eye - origin);
     const Vec4 homogeneous = scene::homogeneous(light, origin);
-    const LightVolume volume = prepareVolume(*finder_, homogeneous, view.eye - origin, counting_, stats, ended);
+    const VolumeRequest request{.finder = *finder_,
+                                .light = homogeneous,
+                                .eye = view.eye - origin,
+                                .counting = counting_,
+                                .options = volumes,
+                                .receivers = receivers,
+                                .tiles = tiles ? &*tiles : nullptr};
+    const LightVolume volume = prepareVolume(request, stats, ended);
     stats.reason = reasonFor(counting_, stats, volume.groups.size());
-    const auto facing =
-        packBits(shadow::visibleSideFacesLight(geometry_->surfaces, Vec4(view.eye - origin, 1.0), homogeneous));
-    if (ended) ended("facing");
-
-    const ViewBlock viewData = viewBlock(view, origin, homogeneous);
-    const ShadingBlock shading = withLight(shadingBlock(camera), camera, light);
-    for (const auto& done : {gpu.view.setOne(viewData), gpu.shading.setOne(shading), gpu.facing.setAll(facing),
-                             gpu.volume.setAll(volume.indices)})
+    for (const auto& done : {gpu.volume.setAll(volume.indices), gpu.farPoints.setAll(volume.farPoints)})
       if (!done) return tl::unexpected(done.error());
     gpu.groups = volume.groups;
     if (ended) {
@@ -206,6 +241,7 @@ class StencilTechnique final : public GlTechnique {
     }
     return LightPlan{
         .groups = planGroups(volume),
+        .finite = !volume.farPoints.empty(),
         .volumeArea = volumeArea(view, casters.bounds, counted, homogeneous, origin, placement),
         .litArea = gl::intersect(litArea(view, light, placement), boxArea(view, receivers, origin, placement))};
   }
@@ -226,6 +262,7 @@ class StencilTechnique final : public GlTechnique {
 
   shadow::Traits traits_;
   Counting counting_;
+  VolumeOptions options_;
   std::shared_ptr<gl::Context> context_;
   std::shared_ptr<const shadow::Geometry> geometry_;
   std::unique_ptr<shadow::SilhouetteFinder> finder_;
@@ -235,8 +272,8 @@ class StencilTechnique final : public GlTechnique {
 }  // namespace
 
 std::unique_ptr<GlTechnique> makeStencilTechnique(const shadow::Traits& traits, Counting counting,
-                                                  std::shared_ptr<gl::Context> context) {
-  return std::make_unique<StencilTechnique>(traits, counting, std::move(context));
+                                                  std::shared_ptr<gl::Context> context, const VolumeOptions& options) {
+  return std::make_unique<StencilTechnique>(traits, counting, options, std::move(context));
 }
 
 }  // namespace umbrage::render

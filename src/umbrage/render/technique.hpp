@@ -33,6 +33,7 @@ class GlTechnique : public shadow::Technique {
 /// `context`: a headless one, made current for each call; null: the one that the caller has current, whose state is crossed
 /// through gl::HostScope. REQUIRES then: it is also current when the technique dies.
 [[nodiscard]] std::unique_ptr<GlTechnique> makeStencilTechnique(const shadow::Traits& traits, Counting counting,
-                                                                std::shared_ptr<gl::Context> context);
+                                                                std::shared_ptr<gl::Context> context,
+                                                                const VolumeOptions& options = {});
 
 }  // namespace umbrage::render

@@ -92,6 +92,16 @@ void findConvexSolids(CasterSet& casters) {
     if (closed[c] != 0) markIfConvex(casters, std::span(byComponent).subspan(begin[c], begin[c + 1] - begin[c]));
 }
 
+void describeComponents(CasterSet& casters) {
+  casters.componentBounds.assign(casters.componentCount, Box3{});
+  casters.componentOfPosition.assign(casters.positions.size(), kNoComponent);
+  for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
+    for (const std::uint32_t i : casters.triangles[t]) {
+      casters.componentBounds[casters.componentOf[t]].add(casters.position(i));
+      casters.componentOfPosition[i] = casters.componentOf[t];
+    }
+}
+
 // Everything that follows from positions and triangles.
 CasterSet finish(CasterSet casters) {
   for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
@@ -100,6 +110,7 @@ CasterSet finish(CasterSet casters) {
   auto components = mesh::connectedComponents(casters.triangles);
   casters.componentOf = std::move(components.ofTriangle);
   casters.componentCount = components.count;
+  describeComponents(casters);
   findConvexSolids(casters);
   return casters;
 }

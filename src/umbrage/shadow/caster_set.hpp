@@ -21,6 +21,9 @@ struct CasterEdgeUse {
   std::int32_t sign;       ///< +1 when the sorted triangle A<B<C runs a -> b along A->B->C->A, else -1
 };
 
+/// A position that no caster uses.
+inline constexpr std::uint32_t kNoComponent = ~std::uint32_t{0};
+
 /// What casts shadows, ready for silhouettes: any triangle soup, any number of triangles at an edge.
 /// 1. positions are relative to `origin`, free of duplicates; corners of triangles are in lexicographic order.
 /// 2. Nothing is refused for its topology; `report` says what it is.
@@ -35,6 +38,8 @@ struct CasterSet {
   std::vector<CasterEdgeUse> uses;
   std::vector<std::uint32_t> componentOf;  ///< per triangle: its connected component
   std::uint32_t componentCount = 0;
+  std::vector<Box3> componentBounds;               ///< per component: of its corners
+  std::vector<std::uint32_t> componentOfPosition;  ///< per position: the one component that uses it, or kNoComponent
   /// Per triangle of a convex solid: the value of lightSide for a light on its outer side, +1 or -1; 0 for all other triangles.
   std::vector<std::int8_t> outward;
   Box3 bounds;  ///< of the corners of all triangles, relative to origin

@@ -76,6 +76,22 @@ bool isOnCaster(const Vec3& p, const CasterSet& casters, std::uint32_t triangle,
   return std::max({outside.x, outside.y, outside.z}) <= threshold && distanceToTriangle(p, a, b, c) <= threshold;
 }
 
+// Whether a box, widened by `margin`, meets the way from p to the light.
+bool meets(const Box3& box, double margin, const Vec3& p, const Vec4& light) {
+  const Vec3 way = Vec3(light) - p * light.w;
+  double enter = 0.0, leave = light.w == 0.0 ? std::numeric_limits<double>::infinity() : 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = box.min[axis] - margin - p[axis], high = box.max[axis] + margin - p[axis];
+    if (way[axis] == 0.0) {
+      if (low > 0.0 || high < 0.0) return false;
+      continue;
+    }
+    enter = std::max(enter, std::min(low / way[axis], high / way[axis]));
+    leave = std::min(leave, std::max(low / way[axis], high / way[axis]));
+  }
+  return enter <= leave;
+}
+
 // Off by irrational-looking fractions, so that an eye on a lattice leaves all its planes.
 constexpr std::array<std::array<double, 3>, 6> kDetours{{{0.5411, 0.3301, 0.7727},
                                                          {-0.6151, 0.7019, 0.3589},
@@ -97,24 +113,37 @@ int certainCount(const CasterSet& casters, const Silhouette& silhouette, const V
 
 }  // namespace
 
+std::vector<std::uint8_t> sidesAtEye(const CasterSet& casters, const Silhouette& silhouette, const Vec3& eye) {
+  const double threshold = thresholdFor(casters, silhouette.light, eye);
+  std::vector<std::uint8_t> touched(casters.componentCount, 0);
+  for (const SilhouetteEdge& edge : silhouette.edges) {
+    if (touched[edge.component] != 0) continue;
+    const Side side = sideOf(casters.position(edge.a), casters.position(edge.b), silhouette.light);
+    if (isWithin(eye, side, threshold)) touched[edge.component] = 1;
+  }
+  return touched;
+}
+
 EyeCount countAtEye(const CasterSet& casters, const Silhouette& silhouette, const Vec3& eye) {
   EyeCount plan;
   plan.threshold = thresholdFor(casters, silhouette.light, eye);
-  plan.byZFail.assign(casters.componentCount, 0);
-  const auto giveUp = [&plan](std::uint32_t component) {
-    plan.byZFailCount += plan.byZFail[component] == 0;
-    plan.byZFail[component] = 1;
-  };
-  for (const SilhouetteEdge& edge : silhouette.edges) {
-    if (plan.byZFail[edge.component] != 0) continue;
-    const Side side = sideOf(casters.position(edge.a), casters.position(edge.b), silhouette.light);
-    if (isWithin(eye, side, plan.threshold)) giveUp(edge.component);
-  }
+  plan.byZFail = sidesAtEye(casters, silhouette, eye);
   for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
     if (silhouette.side[t] != 0 && plan.byZFail[casters.componentOf[t]] == 0 &&
         isOnCaster(eye, casters, t, plan.threshold))
-      giveUp(casters.componentOf[t]);
+      plan.byZFail[casters.componentOf[t]] = 1;
+  plan.byZFailCount = static_cast<std::size_t>(std::count(plan.byZFail.begin(), plan.byZFail.end(), 1));
   plan.count = certainCount(casters, silhouette, eye, plan);
+  return plan;
+}
+
+EyeCount chooseAtEye(const CasterSet& casters, const Silhouette& silhouette, const Vec3& eye) {
+  EyeCount plan;
+  plan.threshold = thresholdFor(casters, silhouette.light, eye);
+  plan.byZFail = sidesAtEye(casters, silhouette, eye);
+  for (std::uint32_t c = 0; c < casters.componentCount; ++c)
+    if (meets(casters.componentBounds[c], plan.threshold, eye, silhouette.light)) plan.byZFail[c] = 1;
+  plan.byZFailCount = static_cast<std::size_t>(std::count(plan.byZFail.begin(), plan.byZFail.end(), 1));
   return plan;
 }
 

@@ -17,6 +17,15 @@ struct EyeCount {
   double threshold = 0.0;  ///< the distance below which a component goes to byZFail, in scene units
 };
 
+/// Per component: 1 when the eye is closer to one of its sides (reaching to infinity) than EyeCount::threshold.
+[[nodiscard]] std::vector<std::uint8_t> sidesAtEye(const CasterSet& casters, const Silhouette& silhouette,
+                                                   const Vec3& eye);
+
+/// The plan that counts nothing: every component that might lie between the eye and the light, by its box, or has a side or a face at the eye
+/// goes to byZFail; the eye is outside the volumes of all others.
+/// Source: the choice by the near-clip volume, which without a near plane is the segment from the eye to the light; C. Everitt and M. Kilgard, 2002.
+[[nodiscard]] EyeCount chooseAtEye(const CasterSet& casters, const Silhouette& silhouette, const Vec3& eye);
+
 /// With depth clamp a perspective view clips volumes only at the eye itself, so what z-pass misses is one number for the whole
 /// screen. It goes wrong only when the eye (nearly) touches a side quad or a caster itself; such components are told to be
 /// drawn by z-fail.

@@ -39,11 +39,18 @@ struct Geometry {
   return std::make_shared<const Geometry>(Geometry{std::move(surfaces), std::move(casters)});
 }
 
+/// How much of the shadow volumes is drawn; no pixel depends on it.
+enum class VolumeFill {
+  reduced,  ///< what can change a pixel
+  plain,    ///< everything, to infinity: for comparison
+};
+
 /// One picture's worth of work.
 struct Frame {
   scene::Camera camera;
   std::span<const scene::Light> lights;
   FinderKind silhouettes = FinderKind::automatic;  ///< who finds them, where the technique needs silhouettes; changes no pixel
+  VolumeFill fill = VolumeFill::reduced;
 };
 
 struct PhaseTime {
@@ -61,6 +68,11 @@ struct LightStats {
   std::size_t castersByZFail = 0;  ///< components that fell back from z-pass
   int eyeCount = 0;
   std::string finder;  ///< who found the silhouette; empty when none was needed
+  // What was left out, since it changes no pixel:
+  std::size_t castersHidden = 0;   ///< components wholly in the shadow of a convex one
+  std::size_t castersBehind = 0;   ///< components whose volumes touch no receiver's line of sight
+  std::size_t sidesBehind = 0;     ///< further single sides
+  std::size_t endlessCasters = 0;  ///< components whose volumes no plane can end
 };
 
 struct FrameStats {

@@ -22,21 +22,20 @@ void append(std::vector<std::uint32_t>& out, std::uint32_t a, std::uint32_t b, s
 }
 
 // A cap that runs a -> b, counter-clockwise as the light sees it, is continued by a side that runs b -> a.
-void appendSide(std::vector<std::uint32_t>& out, const SilhouetteEdge& edge, bool directional) {
+void appendSide(std::vector<std::uint32_t>& out, const SilhouetteEdge& edge, bool toOnePoint) {
   std::uint32_t a = edge.a, b = edge.b;
   if (edge.multiplicity < 0) std::swap(a, b);
   for (int i = 0; i < std::abs(edge.multiplicity); ++i) {
     append(out, nearVertex(b), nearVertex(a), farVertex(a));
-    // With a direction all far vertices are one point, and the side is a single triangle.
-    if (!directional) append(out, nearVertex(b), farVertex(a), farVertex(b));
+    if (!toOnePoint) append(out, nearVertex(b), farVertex(a), farVertex(b));
   }
 }
 
-void appendCaps(std::vector<std::uint32_t>& out, mesh::Triangle corners, int side, bool directional) {
+void appendCaps(std::vector<std::uint32_t>& out, mesh::Triangle corners, int side, bool toOnePoint) {
   if (side < 0) std::swap(corners[1], corners[2]);
   const auto [a, b, c] = corners;
   append(out, nearVertex(a), nearVertex(b), nearVertex(c));
-  if (!directional) append(out, farVertex(a), farVertex(c), farVertex(b));
+  if (!toOnePoint) append(out, farVertex(a), farVertex(c), farVertex(b));
 }
 
 // Whether the line from the light to a point passes left (+1) or right (-1) of the edge a -> b, a before b; 0: too close to call.
@@ -68,19 +67,26 @@ Hit between(const std::array<Vec3, 3>& corner, int side, const Vec4& light, cons
 ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, const ExtrudeOptions& options) {
   UMBRAGE_CHECK(options.components.empty() || options.components.size() == casters.componentCount,
                 "one entry a component");
+  UMBRAGE_CHECK(!options.caps || !options.keepSide, "a volume with caps and without sides is not closed");
   const bool directional = silhouette.light.w == 0.0;
+  // A direction carries all vertices to one point at infinity: sides are single triangles, and there is no far cap.
+  const auto toOnePoint = [&](std::uint32_t component) {
+    return directional && (options.reach == nullptr || options.reach->isEndless(component));
+  };
   const auto chosen = [&](std::uint32_t component) {
     return options.components.empty() || options.components[component] != 0;
   };
   ShadowVolume volume;
-  volume.sides.reserve(silhouette.edges.size() * (directional ? 3 : 6));
+  const std::size_t perEdge = directional && options.reach == nullptr ? 3 : 6;
+  if (!options.keepSide) volume.sides.reserve(silhouette.edges.size() * perEdge);
   for (const SilhouetteEdge& edge : silhouette.edges)
-    if (chosen(edge.component)) appendSide(volume.sides, edge, directional);
+    if (chosen(edge.component) && (!options.keepSide || options.keepSide(edge)))
+      appendSide(volume.sides, edge, toOnePoint(edge.component));
   if (!options.caps) return volume;
-  if (options.components.empty()) volume.caps.reserve(casters.triangles.size() * (directional ? 3 : 6));
+  if (options.components.empty()) volume.caps.reserve(casters.triangles.size() * perEdge);
   for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
     if (silhouette.side[t] != 0 && chosen(casters.componentOf[t]))
-      appendCaps(volume.caps, casters.triangles[t], silhouette.side[t], directional);
+      appendCaps(volume.caps, casters.triangles[t], silhouette.side[t], toOnePoint(casters.componentOf[t]));
   return volume;
 }
 

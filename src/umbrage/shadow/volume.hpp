@@ -1,23 +1,25 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "umbrage/shadow/reach.hpp"
 #include "umbrage/shadow/silhouette.hpp"
 
 namespace umbrage::shadow {
 
-/// A shadow volume as indices into doubled vertices: 2i is position i itself, 2i+1 is position i carried away from the light to
-/// infinity: (p - light, 0) for a point light, (-light, 0) for a direction.
+/// A shadow volume as indices into doubled vertices: 2i is position i itself, 2i+1 is position i carried away from the light, to
+/// infinity ((p - light, 0) for a point light, (-light, 0) for a direction) or to where its component's Reach ends.
 /// 1. Outward faces are counter-clockwise.
 /// 2. `sides` alone is what z-pass draws; `sides` and `caps` together are a closed surface, as z-fail needs.
-/// 3. Near caps lie on the casters themselves and far caps at infinity, so where the casters are in the depth buffer, no cap
-///    fragment is ever nearer than the picture: z-fail may let every cap fragment fail its depth test (no comparison, no
-///    z-fighting with the caster or with surfaces that lie in its plane).
+/// 3. Near caps lie on the casters themselves and far caps at infinity or beyond the room that holds eye and receivers, so where the
+///    casters are in the depth buffer, no cap fragment is ever nearer than the picture: z-fail may let every cap fragment fail its
+///    depth test (no comparison, no z-fighting with the caster or with surfaces that lie in its plane).
 struct ShadowVolume {
   std::vector<std::uint32_t> sides;  ///< triangles
-  std::vector<std::uint32_t> caps;   ///< triangles: near caps, for point lights far caps too
+  std::vector<std::uint32_t> caps;   ///< triangles: near caps, and far caps where the far vertices are not all one point
 
   [[nodiscard]] std::size_t triangleCount() const { return (sides.size() + caps.size()) / 3; }
 };
@@ -26,6 +28,9 @@ struct ExtrudeOptions {
   bool caps = true;
   /// Per component of the casters: 0 leaves it out. Empty: all are extruded.
   std::span<const std::uint8_t> components;
+  const Reach* reach = nullptr;  ///< null: every component reaches to infinity
+  /// False leaves a side out. REQUIRES: without caps. Empty: all are extruded.
+  std::function<bool(const SilhouetteEdge&)> keepSide;
 };
 
 [[nodiscard]] ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, const ExtrudeOptions& options = {});

@@ -16,7 +16,7 @@ int main() {
   scene.materials = {{}};
   scene.instances = {{.name = "square"}};
   const auto geometry = shadow::makeGeometry(scene);
-  if (render::planPasses({}, true, {}, render::Product::picture).steps.empty()) return 1;
+  if (render::planLights({}, true, {}, render::Product::picture).steps.empty()) return 1;
 
   const auto context = gl::Context::createHeadless();
   if (!context) {

@@ -2,11 +2,13 @@
 
 #include <vector>
 
+#include "umbrage/render/volume_options.hpp"
 #include "umbrage/shadow/technique.hpp"
 
 namespace umbrage::techniques {
 
 /// Every technique of this room. The entries of one list share one headless context, made when the first is created.
-[[nodiscard]] std::vector<shadow::TechniqueEntry> openGlTechniques();
+[[nodiscard]] std::vector<shadow::TechniqueEntry> openGlTechniques(
+    const render::VolumeOptions& options = {});
 
 }  // namespace umbrage::techniques

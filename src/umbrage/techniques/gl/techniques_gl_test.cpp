@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,7 @@
 #include "umbrage/shadow/facing.hpp"
 #include "umbrage/techniques/gl/registry.hpp"
 #include "umbrage/techniques/gl/zfail.hpp"
+#include "umbrage/techniques/gl/zmixed.hpp"
 #include "umbrage/techniques/gl/zpass.hpp"
 
 namespace umbrage::techniques {
@@ -154,6 +156,22 @@ std::vector<Eye> eyes() {
 
 using Make = std::unique_ptr<render::GlTechnique> (*)(std::shared_ptr<gl::Context>);
 
+std::unique_ptr<render::GlTechnique> reducedZFail(std::shared_ptr<gl::Context> context) {
+  return makeZFail(std::move(context));
+}
+std::unique_ptr<render::GlTechnique> reducedZPass(std::shared_ptr<gl::Context> context) {
+  return makeZPass(std::move(context));
+}
+std::unique_ptr<render::GlTechnique> reducedZMixed(std::shared_ptr<gl::Context> context) {
+  return makeZMixed(std::move(context));
+}
+std::unique_ptr<render::GlTechnique> plainZFail(std::shared_ptr<gl::Context> context) {
+  return makeZFail(std::move(context), render::kPlainVolumes);
+}
+std::unique_ptr<render::GlTechnique> plainZPass(std::shared_ptr<gl::Context> context) {
+  return makeZPass(std::move(context), render::kPlainVolumes);
+}
+
 class StencilTechniques : public ::testing::TestWithParam<Make> {
  protected:
   void SetUp() override {
@@ -162,6 +180,7 @@ class StencilTechniques : public ::testing::TestWithParam<Make> {
     context_ = *context;
     technique_ = GetParam()(context_);
   }
+  static bool isPlain() { return GetParam() == plainZFail || GetParam() == plainZPass; }
   std::shared_ptr<gl::Context> context_;
   std::unique_ptr<render::GlTechnique> technique_;
 };
@@ -391,8 +410,9 @@ TEST_P(StencilTechniques, TellWhatTheyDid) {
   EXPECT_GT(stats.lights[0].volumeTriangles, 0u);
   std::vector<std::string> names;
   for (const auto& phase : stats.phases) names.push_back(phase.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"facing", "silhouette", "layers", "extrude", "upload", "depth", "volumes",
-                                             "lit", "readback"}));
+  std::vector<std::string> phases{"facing", "depth", "tiles", "silhouette", "layers", "extrude", "upload", "volumes", "lit", "readback"};
+  if (isPlain()) std::erase(phases, "tiles");
+  EXPECT_EQ(names, phases);
 }
 
 // 256 sheets between the sun and the ground: what 8 bits count as 0.
@@ -440,14 +460,17 @@ TEST_P(StencilTechniques, SurviveEmptyScenesAndOddSizes) {
   EXPECT_EQ(tooWide.error().code, ErrorCode::device);
 }
 
-INSTANTIATE_TEST_SUITE_P(Gl, StencilTechniques, ::testing::Values(makeZFail, makeZPass),
-                         [](const auto& which) { return which.index == 0 ? "zfail" : "zpass"; });
+constexpr std::array kVariants{"zfail", "zpass", "zmixed", "zfail_plain", "zpass_plain"};
+INSTANTIATE_TEST_SUITE_P(Gl, StencilTechniques,
+                         ::testing::Values(reducedZFail, reducedZPass, reducedZMixed, plainZFail, plainZPass),
+                         [](const auto& which) { return kVariants[which.index]; });
 
-TEST(GlTechniques, AreTheTwoWaysToCount) {
+TEST(GlTechniques, AreTheWaysToCount) {
   const auto entries = openGlTechniques();
-  ASSERT_EQ(entries.size(), 2u);
+  ASSERT_EQ(entries.size(), 3u);
   EXPECT_EQ(entries[0].traits.name, "zfail");
   EXPECT_EQ(entries[1].traits.name, "zpass");
+  EXPECT_EQ(entries[2].traits.name, "zmixed");
 }
 
 }  // namespace

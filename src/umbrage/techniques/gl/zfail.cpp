@@ -9,8 +9,9 @@ shadow::Traits zFailTraits() {
           .edgeTolerancePx = 1};
 }
 
-std::unique_ptr<render::GlTechnique> makeZFail(std::shared_ptr<gl::Context> context) {
-  return render::makeStencilTechnique(zFailTraits(), render::Counting::zFail, std::move(context));
+std::unique_ptr<render::GlTechnique> makeZFail(std::shared_ptr<gl::Context> context,
+                                                const render::VolumeOptions& options) {
+  return render::makeStencilTechnique(zFailTraits(), render::Counting::zFail, std::move(context), options);
 }
 
 }  // namespace umbrage::techniques

@@ -9,6 +9,7 @@ namespace umbrage::techniques {
 /// Exact however many casters lie behind each other: what 8 bits cannot count is counted in groups (shadow::groupLayers).
 /// Source: Bilodeau and Songy, 1999; Carmack, 2000; Everitt and Kilgard, practical and robust stenciled shadow volumes, 2002.
 [[nodiscard]] shadow::Traits zFailTraits();
-[[nodiscard]] std::unique_ptr<render::GlTechnique> makeZFail(std::shared_ptr<gl::Context> context);
+[[nodiscard]] std::unique_ptr<render::GlTechnique> makeZFail(std::shared_ptr<gl::Context> context,
+                                                              const render::VolumeOptions& options = {});
 
 }  // namespace umbrage::techniques

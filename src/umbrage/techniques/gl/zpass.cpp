@@ -9,8 +9,9 @@ shadow::Traits zPassTraits() {
           .edgeTolerancePx = 1};
 }
 
-std::unique_ptr<render::GlTechnique> makeZPass(std::shared_ptr<gl::Context> context) {
-  return render::makeStencilTechnique(zPassTraits(), render::Counting::zPass, std::move(context));
+std::unique_ptr<render::GlTechnique> makeZPass(std::shared_ptr<gl::Context> context,
+                                                const render::VolumeOptions& options) {
+  return render::makeStencilTechnique(zPassTraits(), render::Counting::zPass, std::move(context), options);
 }
 
 }  // namespace umbrage::techniques

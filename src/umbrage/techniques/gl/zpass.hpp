@@ -9,6 +9,7 @@ namespace umbrage::techniques {
 /// Exact however many casters lie behind each other: what 8 bits cannot count is counted in groups (shadow::groupLayers).
 /// Source: Heidmann, real shadows, real time, 1991; the count at the eye: shadow::countAtEye.
 [[nodiscard]] shadow::Traits zPassTraits();
-[[nodiscard]] std::unique_ptr<render::GlTechnique> makeZPass(std::shared_ptr<gl::Context> context);
+[[nodiscard]] std::unique_ptr<render::GlTechnique> makeZPass(std::shared_ptr<gl::Context> context,
+                                                              const render::VolumeOptions& options = {});
 
 }  // namespace umbrage::techniques

@@ -1,0 +1,18 @@
+#pragma once
+
+namespace umbrage::render {
+
+/// What is done to draw less of the volumes. Nothing here changes a pixel of a shadow.
+struct VolumeOptions {
+  /// Volumes end behind the receivers and the eye (shadow::reachWithin) instead of at infinity.
+  bool finite = true;
+  /// Casters wholly in the shadow of a convex one are left out (shadow::findHiddenCasters).
+  bool hiddenCasters = true;
+  /// Volumes, and for z-pass single sides, that lie behind all receivers are left out (ReceiverTiles).
+  bool hiddenParts = true;
+};
+
+/// Infinite volumes of all casters, as the textbooks have them.
+inline constexpr VolumeOptions kPlainVolumes{.finite = false, .hiddenCasters = false, .hiddenParts = false};
+
+}  // namespace umbrage::render
