@@ -13,8 +13,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 FrameTimes::Shot readShot(const Json& j) {
-  FrameTimes::Shot shot{j.at("scene"), j.at("shot"), j.at("triangles"), {}};
-  for (const Json& c : j.at("contestants")) shot.times[c.at("name")] = c.at("ms").get<std::vector<double>>();
+  FrameTimes::Shot shot{j.at("scene"), j.at("shot"), j.at("triangles"), {}, {}};
+  for (const Json& c : j.at("contestants")) {
+    shot.times[c.at("name")] = c.at("ms").get<std::vector<double>>();
+    shot.phases[c.at("name")] = c.at("phases").get<std::map<std::string, double>>();
+  }
   return shot;
 }
 

@@ -14,7 +14,8 @@ struct FrameTimes {
   struct Shot {
     std::string scene, name;
     std::size_t triangles = 0;
-    std::map<std::string, std::vector<double>> times;  ///< per contestant, milliseconds, one a round
+    std::map<std::string, std::vector<double>> times;             ///< per contestant, milliseconds, one a round
+    std::map<std::string, std::map<std::string, double>> phases;  ///< per contestant and phase, median milliseconds
   };
   std::vector<std::pair<std::string, std::string>> facts;  ///< machine, versions, date; in the order of the file
   int rounds = 0;

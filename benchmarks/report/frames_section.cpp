@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <iostream>
 #include <iterator>
 
@@ -61,6 +62,27 @@ std::string table(const FrameTimes& all, const std::vector<std::string>& names,
     for (const auto& name : names) out += " " + entry(shot, name) + " |";
     out += "\n";
   }
+  return out;
+}
+
+// What our frames are made of: a row for each shot and technique that works in the phases of shadow volumes.
+std::string phases(const FrameTimes& all) {
+  constexpr const char* kNames[] = {"depth", "facing", "silhouette", "layers", "extrude",
+                                    "tiles", "upload", "volumes",    "lit",    "readback"};
+  std::string out = "| view | technique |", rule = "|---|---|";
+  for (const char* name : kNames) out += fmt::format(" {} |", name), rule += "---:|";
+  out += "\n" + rule + "\n";
+  for (const auto& shot : all.shots)
+    for (const auto& technique : ours(all)) {
+      const auto at = shot.phases.find(technique);
+      if (at == shot.phases.end() || !at->second.contains("volumes")) continue;
+      out += fmt::format("| {} | {} |", shot.name, technique);
+      for (const char* name : kNames) {
+        const auto phase = at->second.find(name);
+        out += fmt::format(" {} |", phase == at->second.end() ? "" : fmt::format("{:.1f}", phase->second));
+      }
+      out += "\n";
+    }
   return out;
 }
 
@@ -118,6 +140,7 @@ Result<std::string> section(const FrameTimes& all, const fs::path& measured, con
     out += "\nOur time for the whole frame divided by that of bare Embree shadow rays:\n\n";
     out += table(all, ours(all), [](const auto& s, const auto& n) { return cell(ratio(s, n, kBare)); });
   }
+  out += "\nWhere the milliseconds of shadow volumes go:\n\n" + phases(all);
   std::vector<std::pair<fs::path, fs::path>> pairs;
   for (const auto& shot : all.shots)
     pairs.emplace_back(measured / (shot.name + "-zpass.png"), measured / (shot.name + "-ogre.ppm"));
