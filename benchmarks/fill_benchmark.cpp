@@ -99,7 +99,7 @@ bool measure(const View& view, int rounds, const std::shared_ptr<gl::Context>& c
       if (!shading) return false;
       Times& t = times[i];
       t.volumes.push_back(sum(shading->stats, {"volumes"}));
-      t.processor.push_back(sum(shading->stats, {"tiles", "silhouette", "layers", "extrude", "upload"}));
+      t.processor.push_back(sum(shading->stats, {"tiles", "silhouette", "useless", "layers", "extrude", "upload"}));
       t.shading.push_back(sum(shading->stats, {"facing", "lit"}) + t.volumes.back() + t.processor.back());
       t.toPlain.push_back(t.volumes.back() / times[0].volumes.back());
       t.toBare.push_back(t.shading.back() / rays);

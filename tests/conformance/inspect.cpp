@@ -1,4 +1,4 @@
-// Prints the pixels in which techniques differ from the truth: inspect SCENE VIEW LIGHT.
+// Prints the pixels in which techniques differ from the truth: inspect SCENE VIEW LIGHT [plain].
 #include <cstdio>
 #include <cstring>
 
@@ -12,7 +12,8 @@
 using namespace umbrage;
 
 int main(int argc, char** argv) {
-  if (argc != 4) return 2;
+  if (argc != 4 && argc != 5) return 2;
+  const auto fill = argc == 5 ? shadow::VolumeFill::plain : shadow::VolumeFill::reduced;
   auto c = conformance::Case();
 #ifdef UMBRAGE_HAVE_IO
   if (std::strchr(argv[1], '.') != nullptr) c = conformance::modelCase(argv[1]).value();
@@ -29,7 +30,7 @@ int main(int argc, char** argv) {
       if (view.name != argv[2]) continue;
       for (const auto& light : c.lights) {
         if (light.name != argv[3]) continue;
-        const auto a = (*technique)->shade({view.camera, {&light.light, 1}});
+        const auto a = (*technique)->shade({.camera = view.camera, .lights = {&light.light, 1}, .fill = fill});
         const auto b = (*truth)->shade({view.camera, {&light.light, 1}});
         const Vec4 l = scene::homogeneous(light.light, geometry->surfaces.origin);
         std::printf("%s: eye %.9g %.9g %.9g light %.9g %.9g %.9g %g\n", entry.traits.name.c_str(), view.camera.eye.x,
@@ -48,7 +49,7 @@ int main(int argc, char** argv) {
                 t.light(x, y), t.covered(x, y), int(b->surface.triangle(x, y)), b->surface.depth(x, y), p.lit,
                 p.covered, p.clear ? "" : " unclear", p.point.x, p.point.y, p.point.z);
           }
-        std::printf("  %d pixels\n", shown);
+        std::printf("  %d pixels; %s\n", shown, a->stats.lights.empty() ? "" : a->stats.lights[0].reason.c_str());
       }
     }
   }

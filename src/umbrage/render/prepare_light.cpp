@@ -18,69 +18,29 @@ IndexRange append(std::vector<std::uint32_t>& indices, std::vector<std::uint32_t
   return range;
 }
 
+using Components = std::vector<std::uint8_t>;  // a flag for each
+
 // What is counted together, before it is extruded.
 struct Part {
   shadow::Silhouette silhouette;
   shadow::EyeCount atEye;  // for z-fail: only which components the eye touches
 };
 
-// One light's volumes in the making.
-class Builder {
+// Where volumes end, and what of them matters.
+class Shape {
  public:
-  // Where a volume's end is rounded, a side that holds the eye may turn out on its wrong side: what the eye touches has no end.
-  Builder(const VolumeRequest& request, std::span<const std::uint8_t> atEye, shadow::LightStats& stats)
-      : request_(request), stats_(stats) {
-    out_.light = request.light;
-    out_.counting = request.counting;
-    if (!request.options.finite) return;
-    Box3 room = request.receivers;
-    room.add(request.eye);
-    reach_ = shadow::reachWithin(request.casters(), request.light, room, atEye);
-    out_.farPoints = shadow::farPoints(request.casters(), reach_, request.light, request.eye);
-    stats.endlessCasters = reach_.endlessCount();
+  explicit Shape(const VolumeRequest& request) : request_(request) {}
+
+  // What the eye touches has no end: of corners around the eye, those at infinity are the ones that rounding harms least.
+  void endVolumes(const Components& atEye) {
+    if (!request_.options.finite) return;
+    Box3 room = request_.receivers;
+    room.add(request_.eye);
+    reach_ = shadow::reachWithin(request_.casters(), request_.light, room, atEye);
   }
 
-  // Which components are drawn at all.
-  void findUseful() {
-    if (request_.tiles == nullptr || !request_.options.hiddenParts) return;
-    const shadow::CasterSet& casters = request_.casters();
-    useful_.assign(casters.componentCount, 1);
-    for (std::uint32_t c = 0; c < casters.componentCount; ++c) {
-      const auto hull = hullOf(c);
-      const bool zFail = request_.counting == Counting::zFail;
-      if (request_.tiles->behindAll(hull) || (zFail && request_.tiles->beforeAll(hull))) useful_[c] = 0;
-    }
-  }
-
-  void addGroup(const Part& part) {
-    const auto& [silhouette, atEye] = part;
-    VolumeGroup group{.eyeCount = atEye.count, .passSides = {}, .failSides = {}, .failCaps = {}};
-    const bool zPass = request_.counting != Counting::zFail;
-    if (zPass) group.passSides = append(out_.indices, passSides(silhouette, atEye));
-    if (!zPass || atEye.byZFailCount > 0) {
-      const std::span<const std::uint8_t> chosen = zPass ? std::span(atEye.byZFail) : std::span(useful_);
-      shadow::ShadowVolume volume =
-          shadow::extrude(request_.casters(), silhouette, {.components = chosen, .reach = reach(), .keepSide = {}});
-      group.failSides = append(out_.indices, std::move(volume.sides));
-      group.failCaps = append(out_.indices, std::move(volume.caps));
-    }
-    for (const shadow::SilhouetteEdge& edge : silhouette.edges) drawn_[edge.component] = 1;
-    out_.groups.push_back(group);
-  }
-
-  LightVolume finish() {
-    stats_.volumeTriangles = out_.indices.size() / 3;
-    for (std::size_t c = 0; c < useful_.size(); ++c) stats_.castersBehind += useful_[c] == 0 && drawn_[c] != 0;
-    return std::move(out_);
-  }
-
- private:
-  [[nodiscard]] const shadow::Reach* reach() const { return request_.options.finite ? &reach_ : nullptr; }
-
-  [[nodiscard]] Vec4 relative(const Vec4& p) const { return p - Vec4(request_.eye * p.w, 0.0); }
-
-  // Points whose convex hull holds the volume of a component.
-  [[nodiscard]] std::array<Vec4, 16> hullOf(std::uint32_t component) const {
+  // No receiver that can be seen lies in a volume that is behind them all, or before them all.
+  [[nodiscard]] bool holdsReceivers(std::uint32_t component) const {
     const Box3& box = request_.casters().componentBounds[component];
     std::array<Vec4, 16> hull;
     for (std::size_t i = 0; i < 8; ++i) {
@@ -89,56 +49,53 @@ class Builder {
       hull[i] = relative(Vec4(corner, 1.0));
       hull[8 + i] = relative(farEnd(component, corner));
     }
-    return hull;
+    return !request_.tiles->behindAll(hull) && !request_.tiles->beforeAll(hull);
   }
 
+  // Whether z-pass may count fragments of a side.
+  [[nodiscard]] bool mayCount(const shadow::SilhouetteEdge& edge) const {
+    const Vec3 a = request_.casters().position(edge.a), b = request_.casters().position(edge.b);
+    const std::array<Vec4, 4> hull{relative(Vec4(a, 1.0)), relative(Vec4(b, 1.0)),
+                                   relative(farEnd(edge.component, a)), relative(farEnd(edge.component, b))};
+    return !request_.tiles->behindAll(hull);
+  }
+
+  [[nodiscard]] const shadow::Reach* reach() const { return request_.options.finite ? &reach_ : nullptr; }
+
+ private:
+  [[nodiscard]] Vec4 relative(const Vec4& p) const { return p - Vec4(request_.eye * p.w, 0.0); }
   [[nodiscard]] Vec4 farEnd(std::uint32_t component, const Vec3& corner) const {
     if (request_.options.finite) return shadow::farPoint(reach_, component, corner, request_.light);
     return {corner * request_.light.w - Vec3(request_.light), 0.0};
   }
 
-  [[nodiscard]] bool mayCount(const shadow::SilhouetteEdge& edge) {
-    const Vec3 a = request_.casters().position(edge.a), b = request_.casters().position(edge.b);
-    const std::array<Vec4, 4> hull{relative(Vec4(a, 1.0)), relative(Vec4(b, 1.0)),
-                                   relative(farEnd(edge.component, a)), relative(farEnd(edge.component, b))};
-    const bool useless = request_.tiles->behindAll(hull);
-    stats_.sidesBehind += useless;
-    return !useless;
-  }
-
-  [[nodiscard]] std::vector<std::uint32_t> passSides(const shadow::Silhouette& silhouette,
-                                                     const shadow::EyeCount& atEye) {
-    std::vector<std::uint8_t> chosen = useful_;
-    if (atEye.byZFailCount > 0) {
-      chosen.resize(atEye.byZFail.size(), 1);
-      for (std::size_t c = 0; c < chosen.size(); ++c) chosen[c] = chosen[c] != 0 && atEye.byZFail[c] == 0;
-    }
-    shadow::ExtrudeOptions options{.caps = false, .components = chosen, .reach = reach(), .keepSide = {}};
-    if (!useful_.empty()) options.keepSide = [this](const shadow::SilhouetteEdge& edge) { return mayCount(edge); };
-    return shadow::extrude(request_.casters(), silhouette, options).sides;
-  }
-
   const VolumeRequest& request_;
-  shadow::LightStats& stats_;
   shadow::Reach reach_;
-  std::vector<std::uint8_t> useful_;  // per component; empty: all
-  std::vector<std::uint8_t> drawn_ = std::vector<std::uint8_t>(request_.casters().componentCount, 0);
-  LightVolume out_;
 };
+
+bool dropsParts(const VolumeRequest& request) { return request.tiles != nullptr && request.options.hiddenParts; }
+
+// Which components need not be drawn.
+Components findUseless(const VolumeRequest& request, const Shape& shape, shadow::LightStats& stats) {
+  const shadow::CasterSet& casters = request.casters();
+  Components useless(casters.componentCount, 0);
+  if (request.options.hiddenCasters) {
+    shadow::HiddenCasters hidden = shadow::findHiddenCasters(casters, request.light);
+    stats.castersHidden = hidden.count;
+    useless = std::move(hidden.component);
+  }
+  if (!dropsParts(request)) return useless;
+  for (std::uint32_t c = 0; c < casters.componentCount; ++c) {
+    if (useless[c] != 0 || shape.holdsReceivers(c)) continue;
+    useless[c] = 1;
+    ++stats.castersBehind;
+  }
+  return useless;
+}
 
 shadow::LayerGroups groupsFor(const shadow::CasterSet& casters, const shadow::Silhouette& silhouette) {
   if (shadow::layeringBound(casters, silhouette, kWholeStencil) <= kWholeStencil) return {};
   return shadow::groupLayers(casters, silhouette, kSharedStencil);
-}
-
-shadow::Silhouette silhouetteFor(const VolumeRequest& request, shadow::LightStats& stats) {
-  shadow::Silhouette silhouette = request.finder.silhouette(request.light);
-  stats.finder = silhouette.finder;
-  stats.edgesTested = silhouette.edgesTested;
-  if (!request.options.hiddenCasters) return silhouette;
-  const shadow::HiddenCasters hidden = shadow::findHiddenCasters(request.casters(), request.light);
-  stats.castersHidden = hidden.count;
-  return shadow::without(request.casters(), std::move(silhouette), hidden);
 }
 
 std::vector<Part> partsOf(const VolumeRequest& request, shadow::Silhouette whole, const shadow::LayerGroups& groups) {
@@ -149,11 +106,56 @@ std::vector<Part> partsOf(const VolumeRequest& request, shadow::Silhouette whole
       part.atEye = shadow::countAtEye(request.casters(), part.silhouette, request.eye);
     else if (request.counting == Counting::zMixed)
       part.atEye = shadow::chooseAtEye(request.casters(), part.silhouette, request.eye);
-    else if (request.options.finite)
+    else
       part.atEye.byZFail = shadow::sidesAtEye(request.casters(), part.silhouette, request.eye);
     parts.push_back(std::move(part));
   }
   return parts;
+}
+
+// What the eye touches in any part. A group's silhouette has edges that the whole has not.
+Components touched(const VolumeRequest& request, const std::vector<Part>& parts) {
+  Components all(request.casters().componentCount, 0);
+  for (const Part& part : parts)
+    for (std::size_t c = 0; c < part.atEye.byZFail.size(); ++c) all[c] |= part.atEye.byZFail[c];
+  return all;
+}
+
+std::vector<std::uint32_t> passSides(const VolumeRequest& request, const Part& part, const Shape& shape,
+                                     shadow::LightStats& stats) {
+  Components chosen;
+  if (part.atEye.byZFailCount > 0)
+    for (const std::uint8_t fallen : part.atEye.byZFail) chosen.push_back(fallen == 0 ? 1 : 0);
+  shadow::ExtrudeOptions options{.caps = false, .components = chosen, .reach = shape.reach(), .keepSide = {}};
+  if (dropsParts(request))
+    options.keepSide = [&](const shadow::SilhouetteEdge& edge) {
+      const bool keep = shape.mayCount(edge);
+      stats.sidesBehind += !keep;
+      return keep;
+    };
+  return shadow::extrude(request.casters(), part.silhouette, options).sides;
+}
+
+void addGroup(LightVolume& out, const VolumeRequest& request, const Part& part, const Shape& shape,
+              shadow::LightStats& stats) {
+  VolumeGroup group{.eyeCount = part.atEye.count, .passSides = {}, .failSides = {}, .failCaps = {}};
+  const bool zFail = request.counting == Counting::zFail;
+  if (!zFail) group.passSides = append(out.indices, passSides(request, part, shape, stats));
+  if (zFail || part.atEye.byZFailCount > 0) {
+    const std::span<const std::uint8_t> chosen =
+        zFail ? std::span<const std::uint8_t>() : std::span(part.atEye.byZFail);
+    const auto isSeen = [&](const shadow::SilhouetteEdge& edge) {
+      return part.atEye.byZFail[edge.component] == 0 ||
+             !shadow::liesOnSide(request.casters(), edge, request.light, request.eye);
+    };
+    shadow::ShadowVolume volume = shadow::extrude(
+        request.casters(), part.silhouette, {.components = chosen, .reach = shape.reach(), .keepSide = isSeen});
+    group.failSides = append(out.indices, std::move(volume.sides));
+    group.failCaps = append(out.indices, std::move(volume.caps));
+    if (!zFail) stats.castersByZFail += part.atEye.byZFailCount;
+  }
+  stats.eyeCount += part.atEye.count;
+  out.groups.push_back(group);
 }
 
 }  // namespace
@@ -171,27 +173,35 @@ LightVolume prepareVolume(const VolumeRequest& request, shadow::LightStats& stat
   const auto end = [&](const char* phase) {
     if (ended) ended(phase);
   };
-  shadow::Silhouette whole = silhouetteFor(request, stats);
+  const shadow::CasterSet& casters = request.casters();
+  shadow::Silhouette whole = request.finder.silhouette(request.light);
+  stats.method = name(request.counting);
+  stats.finder = whole.finder;
+  stats.edgesTested = whole.edgesTested;
   stats.silhouetteEdges = whole.edges.size();
   end("silhouette");
-  const shadow::LayerGroups groups = groupsFor(request.casters(), whole);
+
+  Shape shape(request);
+  shape.endVolumes(request.options.finite ? shadow::sidesAtEye(casters, whole, request.eye) : Components());
+  whole = shadow::without(casters, std::move(whole), findUseless(request, shape, stats));
+  end("useless");
+  const shadow::LayerGroups groups = groupsFor(casters, whole);
   end("layers");
-  std::vector<Part> parts = partsOf(request, std::move(whole), groups);
-  std::vector<std::uint8_t> atEye(request.casters().componentCount, 0);
-  for (const Part& part : parts)
-    for (std::size_t c = 0; c < part.atEye.byZFail.size(); ++c) atEye[c] |= part.atEye.byZFail[c];
+  const std::vector<Part> parts = partsOf(request, std::move(whole), groups);
   end("silhouette");
-  Builder builder(request, atEye, stats);
-  builder.findUseful();
-  for (const Part& part : parts) {
-    builder.addGroup(part);
-    if (request.counting == Counting::zFail) continue;
-    stats.castersByZFail += part.atEye.byZFailCount;
-    stats.eyeCount += part.atEye.count;
+
+  LightVolume out;
+  out.light = request.light;
+  out.counting = request.counting;
+  shape.endVolumes(touched(request, parts));
+  if (const shadow::Reach* reach = shape.reach(); reach != nullptr) {
+    out.farPoints = shadow::farPoints(casters, *reach, request.light, request.eye);
+    stats.endlessCasters = reach->endlessCount();
   }
+  for (const Part& part : parts) addGroup(out, request, part, shape, stats);
+  stats.volumeTriangles = out.indices.size() / 3;
   end("extrude");
-  stats.method = name(request.counting);
-  return builder.finish();
+  return out;
 }
 
 std::vector<GroupPlan> planGroups(const LightVolume& volume) {

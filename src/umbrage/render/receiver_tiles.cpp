@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "umbrage/render/gpu_frame.hpp"
+#include "umbrage/shadow/surface_buffer.hpp"
 
 namespace umbrage::render {
 namespace {
@@ -18,6 +19,26 @@ constexpr double kLeastDepth = 1e-6;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
+
+image::Image<Vec2f> receiverDepths(const image::Image<std::uint32_t>& ids, const image::Image<float>& depths,
+                                   std::span<const std::uint8_t> facing) {
+  const int width = ids.width(), height = ids.height();
+  image::Image<Vec2f> tiles(tilesFor(width), tilesFor(height), Vec2f(2.0f, -1.0f));
+  for (int y = 0; y < height; ++y) {
+    Vec2f* row = tiles.row(tiles.height() - 1 - (height - 1 - y) / kTile);
+    const std::uint32_t* id = ids.row(y);
+    const float* depth = depths.row(y);
+    for (int tile = 0; tile < tiles.width(); ++tile) {
+      Vec2f range = row[tile];
+      for (int x = tile * kTile, last = std::min(width, x + kTile); x < last; ++x) {
+        if (id[x] == shadow::kNoTriangle || facing[id[x]] == 0) continue;
+        range = {std::min(range.x, depth[x]), std::max(range.y, depth[x])};
+      }
+      row[tile] = range;
+    }
+  }
+  return tiles;
+}
 
 // The tiles that a hull may touch, none when left > right, and its distances along the view.
 struct ReceiverTiles::Extent {

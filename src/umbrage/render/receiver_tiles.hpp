@@ -7,6 +7,12 @@
 
 namespace umbrage::render {
 
+/// Per tile the depth of the farthest and of the nearest pixel whose triangle has a nonzero entry in `facing`, (2, -1) without any: what the
+/// shader receiver_tiles.frag computes, for where pixels are in memory anyway. Rows from the top, tiles counted from the bottom.
+[[nodiscard]] image::Image<Vec2f> receiverDepths(const image::Image<std::uint32_t>& ids,
+                                                 const image::Image<float>& depths,
+                                                 std::span<const std::uint8_t> facing);
+
 /// What of a light's volumes cannot change a pixel that the light may reach, told from how near and far those pixels' surfaces are,
 /// tile by tile. Everything else of the picture (sky, surfaces turned away from the light) is dark whatever the volumes count.
 class ReceiverTiles {

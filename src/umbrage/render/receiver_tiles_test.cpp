@@ -34,6 +34,24 @@ std::vector<Vec4> square(double x, double distance, double size = 0.1) {
   return {{x, distance, 0, 1}, {x + size, distance, 0, 1}, {x, distance, size, 1}, {x + size, distance, size, 1}};
 }
 
+TEST(ReceiverTiles, AreFoundFromPixelsThatFaceTheLight) {
+  image::Image<std::uint32_t> ids(33, 18, ~std::uint32_t{0});
+  image::Image<float> depths(33, 18, 0.0f);
+  const auto set = [&](int x, int y, std::uint32_t id, float depth) { ids(x, y) = id, depths(x, y) = depth; };
+  set(0, 17, 1, 0.5f);   // the lower left tile
+  set(15, 2, 1, 0.25f);  // its uppermost row, for tiles are counted from the bottom
+  set(3, 5, 0, 0.9f);    // turned away
+  set(32, 1, 1, 0.125f);  // the narrow and flat tile in the upper right
+  const std::vector<std::uint8_t> facing{0, 1};
+  const auto tiles = receiverDepths(ids, depths, facing);
+  ASSERT_EQ(tiles.width(), 3);
+  ASSERT_EQ(tiles.height(), 2);
+  EXPECT_EQ(tiles(0, 1), Vec2f(0.25f, 0.5f));
+  EXPECT_EQ(tiles(1, 1), Vec2f(2.0f, -1.0f));
+  EXPECT_EQ(tiles(2, 0), Vec2f(0.125f, 0.125f));
+  EXPECT_EQ(tiles(0, 0), Vec2f(2.0f, -1.0f));
+}
+
 TEST(ReceiverTiles, TellWhatLiesBehindAndBefore) {
   const ReceiverTiles t = tiles();
   EXPECT_TRUE(t.behindAll(square(-5, 11)));

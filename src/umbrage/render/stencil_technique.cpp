@@ -71,6 +71,7 @@ class StencilTechnique final : public GlTechnique {
     auto scene = GpuScene::make(geometry->surfaces);
     if (!scene) return tl::unexpected(scene.error());
     if (own_ == nullptr) own_ = std::make_unique<Own>();
+    own_->quirks = gl::findQuirks();
     own_->scene.emplace(std::move(*scene));
     geometry_ = std::move(geometry);
     useFinder(shadow::FinderKind::automatic);
@@ -116,6 +117,7 @@ class StencilTechnique final : public GlTechnique {
   struct Own {
     std::optional<GpuScene> scene;
     std::optional<GpuFrame> frame;
+    gl::Quirks quirks;
     Programs programs;
     gl::Buffer view, shading, materials;
     std::vector<GpuLight> lights;
@@ -158,6 +160,7 @@ class StencilTechnique final : public GlTechnique {
                          .view = &own_->view,
                          .shading = &own_->shading,
                          .lights = own_->lights};
+    seen_.reset();
     run(scope, planSurfaces(placement, view.reversed), input, ended);
 
     std::vector<LightPlan> plans;
@@ -187,6 +190,25 @@ class StencilTechnique final : public GlTechnique {
     return own_->shading.setOne(shading);
   }
 
+  // A rasteriser on the processor has the pixels at hand, and shade() wants them anyway; from a graphics card only tiles are fetched.
+  Result<image::Image<Vec2f>> tileDepths(gl::HostScope& scope, std::size_t light, std::span<const std::uint8_t> facing,
+                                         GpuFrame& target, const RunInput& input) {
+    if (own_->quirks.software) {
+      if (!seen_) seen_ = readSurface(scope, target);
+      return receiverDepths(seen_->triangle, seen_->depth, facing);
+    }
+    if (auto done = target.needTiles(); !done) return tl::unexpected(done.error());
+    const int columns = tilesFor(target.width()), rows = tilesFor(target.height());
+    run(scope, planTiles(static_cast<int>(light), {0, 0, columns, rows}), input);
+    return gl::readPairs(scope, target.tilesTarget(), columns, rows);
+  }
+
+  // As the graphics card has them: depths are not distances yet.
+  static shadow::SurfaceBuffer readSurface(const gl::HostScope& scope, const GpuFrame& target) {
+    return {gl::readIds(scope, target.surfaceTarget(), target.width(), target.height()),
+            gl::readDepth(scope, target.surfaceTarget(), target.width(), target.height())};
+  }
+
   // What the lit passes need to know of a light, and how far away its receivers are.
   Result<std::optional<ReceiverTiles>> addReceivers(gl::HostScope& scope, std::size_t index, const scene::Light& light,
                                                     const View& view, const scene::Camera& camera,
@@ -196,18 +218,16 @@ class StencilTechnique final : public GlTechnique {
     const scene::Surfaces& surfaces = geometry_->surfaces;
     const Vec4 homogeneous = scene::homogeneous(light, surfaces.origin);
     const auto facing =
-        packBits(shadow::visibleSideFacesLight(surfaces, Vec4(view.eye - surfaces.origin, 1.0), homogeneous));
+        shadow::visibleSideFacesLight(surfaces, Vec4(view.eye - surfaces.origin, 1.0), homogeneous);
     const ViewBlock viewData = viewBlock(view, surfaces.origin, homogeneous);
     const ShadingBlock shading = withLight(shadingBlock(camera), camera, light);
-    for (const auto& done : {gpu.view.setOne(viewData), gpu.shading.setOne(shading), gpu.facing.setAll(facing)})
+    for (const auto& done : {gpu.view.setOne(viewData), gpu.shading.setOne(shading), gpu.facing.setAll(packBits(facing))})
       if (!done) return tl::unexpected(done.error());
     if (ended) ended("facing");
     if (!volumes.hiddenParts) return std::nullopt;
-    if (auto done = target.needTiles(); !done) return tl::unexpected(done.error());
-    const int columns = tilesFor(target.width()), rows = tilesFor(target.height());
-    run(scope, planTiles(static_cast<int>(index), {0, 0, columns, rows}), input);
-    ReceiverTiles tiles(view, gl::readPairs(scope, target.tilesTarget(), columns, rows), target.width(),
-                        target.height());
+    const auto depths = tileDepths(scope, index, facing, target, input);
+    if (!depths) return tl::unexpected(depths.error());
+    ReceiverTiles tiles(view, *depths, target.width(), target.height());
     if (ended) ended("tiles");
     return tiles;
   }
@@ -249,8 +269,8 @@ class StencilTechnique final : public GlTechnique {
   void readBack(const gl::HostScope& scope, const GpuFrame& target, const shadow::Frame& frame, shadow::Shading& out) {
     const int width = frame.camera.width, height = frame.camera.height;
     const View view = viewOf(frame.camera, geometry_->surfaces.bounds.radius());
-    out.surface.triangle = gl::readIds(scope, target.surfaceTarget(), width, height);
-    out.surface.depth = gl::readDepth(scope, target.surfaceTarget(), width, height);
+    out.surface = seen_ ? std::move(*seen_) : readSurface(scope, target);
+    seen_.reset();
     image::GreyImage covered(width, height);
     for (std::size_t i = 0; i < covered.size(); ++i) {
       out.surface.depth.pixels()[i] = depthToDistance(view, out.surface.depth.pixels()[i]);
@@ -267,6 +287,7 @@ class StencilTechnique final : public GlTechnique {
   std::shared_ptr<const shadow::Geometry> geometry_;
   std::unique_ptr<shadow::SilhouetteFinder> finder_;
   std::unique_ptr<Own> own_;
+  std::optional<shadow::SurfaceBuffer> seen_;  // of the frame being drawn, once it has been read back
 };
 
 }  // namespace

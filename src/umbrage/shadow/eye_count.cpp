@@ -124,6 +124,13 @@ std::vector<std::uint8_t> sidesAtEye(const CasterSet& casters, const Silhouette&
   return touched;
 }
 
+bool liesOnSide(const CasterSet& casters, const SilhouetteEdge& edge, const Vec4& light, const Vec3& eye) {
+  const Vec3 a = casters.position(edge.a), b = casters.position(edge.b);
+  // Of what is farther from the eye than a corner, a side this near hides less than a thousandth of a pixel.
+  const double threshold = 0x1p-22 * std::max(glm::length(a - eye), glm::length(b - eye));
+  return isWithin(eye, sideOf(a, b, light), threshold);
+}
+
 EyeCount countAtEye(const CasterSet& casters, const Silhouette& silhouette, const Vec3& eye) {
   EyeCount plan;
   plan.threshold = thresholdFor(casters, silhouette.light, eye);

@@ -21,6 +21,10 @@ struct EyeCount {
 [[nodiscard]] std::vector<std::uint8_t> sidesAtEye(const CasterSet& casters, const Silhouette& silhouette,
                                                    const Vec3& eye);
 
+/// Whether the eye lies on a side (reaching to infinity) as far as single precision can tell. Nothing is seen of such a side, but its depth,
+/// interpolated from corners around the eye, may come out anywhere: z-fail must leave it out.
+[[nodiscard]] bool liesOnSide(const CasterSet& casters, const SilhouetteEdge& edge, const Vec4& light, const Vec3& eye);
+
 /// The plan that counts nothing: every component that might lie between the eye and the light, by its box, or has a side or a face at the eye
 /// goes to byZFail; the eye is outside the volumes of all others.
 /// Source: the choice by the near-clip volume, which without a near plane is the segment from the eye to the light; C. Everitt and M. Kilgard, 2002.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <span>
 
+#include "umbrage/base/check.hpp"
+
 namespace umbrage::shadow {
 namespace {
 
@@ -204,11 +206,11 @@ HiddenCasters findHiddenCasters(const CasterSet& casters, const Vec4& light) {
   return hidden;
 }
 
-Silhouette without(const CasterSet& casters, Silhouette silhouette, const HiddenCasters& hidden) {
-  if (hidden.count == 0) return silhouette;
+Silhouette without(const CasterSet& casters, Silhouette silhouette, std::span<const std::uint8_t> left) {
+  UMBRAGE_CHECK(left.size() == casters.componentCount, "one entry a component");
   for (std::size_t t = 0; t < silhouette.side.size(); ++t)
-    if (hidden.component[casters.componentOf[t]] != 0) silhouette.side[t] = 0;
-  std::erase_if(silhouette.edges, [&](const SilhouetteEdge& edge) { return hidden.component[edge.component] != 0; });
+    if (left[casters.componentOf[t]] != 0) silhouette.side[t] = 0;
+  std::erase_if(silhouette.edges, [&](const SilhouetteEdge& edge) { return left[edge.component] != 0; });
   return silhouette;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "umbrage/shadow/silhouette.hpp"
@@ -22,7 +23,7 @@ struct HiddenCasters {
 /// `light`: homogeneous, relative to the origin of the casters.
 [[nodiscard]] HiddenCasters findHiddenCasters(const CasterSet& casters, const Vec4& light);
 
-/// The silhouette without these components: as if they cast no shadow.
-[[nodiscard]] Silhouette without(const CasterSet& casters, Silhouette silhouette, const HiddenCasters& hidden);
+/// The silhouette without the components whose entry in `left` is not 0: as if they cast no shadow.
+[[nodiscard]] Silhouette without(const CasterSet& casters, Silhouette silhouette, std::span<const std::uint8_t> left);
 
 }  // namespace umbrage::shadow

@@ -87,7 +87,7 @@ RC_GTEST_PROP(HiddenCasters, LeavingThemOutChangesNoShadow, ()) {
   const HiddenCasters hidden = findHiddenCasters(casters, light);
   RC_CLASSIFY(hidden.count > 0, "some are hidden");
   const Silhouette all = findSilhouette(casters, light);
-  const Silhouette rest = without(casters, all, hidden);
+  const Silhouette rest = without(casters, all, hidden.component);
   for (const Vec3& offset : {Vec3(0.3113, 0.2371, 0.1709), Vec3(0.7317, 0.8123, 0.3391), Vec3(0.1193, 0.6113, 0.9127)})
     for (int i = 0; i < 8; ++i) {
       const Vec3 point = Vec3(*far, *far, *far) + offset;

@@ -67,7 +67,6 @@ Hit between(const std::array<Vec3, 3>& corner, int side, const Vec4& light, cons
 ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, const ExtrudeOptions& options) {
   UMBRAGE_CHECK(options.components.empty() || options.components.size() == casters.componentCount,
                 "one entry a component");
-  UMBRAGE_CHECK(!options.caps || !options.keepSide, "a volume with caps and without sides is not closed");
   const bool directional = silhouette.light.w == 0.0;
   // A direction carries all vertices to one point at infinity: sides are single triangles, and there is no far cap.
   const auto toOnePoint = [&](std::uint32_t component) {

@@ -29,7 +29,7 @@ struct ExtrudeOptions {
   /// Per component of the casters: 0 leaves it out. Empty: all are extruded.
   std::span<const std::uint8_t> components;
   const Reach* reach = nullptr;  ///< null: every component reaches to infinity
-  /// False leaves a side out. REQUIRES: without caps. Empty: all are extruded.
+  /// False leaves a side out. Empty: all are extruded.
   std::function<bool(const SilhouetteEdge&)> keepSide;
 };
 
