@@ -11,8 +11,8 @@
 namespace umbrage::render {
 namespace {
 
-// Measured: from 1e-4 to 1e-20 not a pixel changes but for surfaces nearer than this, which share one depth.
-constexpr double kNearPerRadius = 1e-9;
+// Surfaces nearer than this share one depth. A power of two, so that depths round alike in scenes of every size.
+constexpr int kNearExponent = -50;
 // Wider cones are treated as reaching everywhere; their tangent says nothing.
 constexpr double kWidestCone = 80.0;
 
@@ -84,7 +84,7 @@ View viewOf(const scene::Camera& camera, double sceneRadius) {
   const double aspect = double(camera.width) / double(camera.height);
   View view;
   view.eye = camera.eye;
-  view.nearDistance = kNearPerRadius * (sceneRadius > 0.0 ? sceneRadius : 1.0);
+  view.nearDistance = std::ldexp(1.0, std::ilogb(sceneRadius > 0.0 ? sceneRadius : 1.0) + kNearExponent);
   const Vec3 x = b.right * (f / aspect), y = b.up * f;
   for (int c = 0; c < 3; ++c) view.toClip[c] = Vec4(x[c], y[c], 0.0, b.forward[c]);
   view.toClip[3] = Vec4(0.0, 0.0, view.nearDistance, 0.0);

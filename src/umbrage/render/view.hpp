@@ -17,7 +17,7 @@ struct View {
 };
 
 /// The house's own projection of a camera: reversed, infinite, depth in [0, 1].
-/// `sceneRadius` sets only the unit of depth: the camera has no near plane (with depth clamp, surfaces nearer than 1e-9 of the
+/// `sceneRadius` sets only the unit of depth: the camera has no near plane (with depth clamp, surfaces nearer than 2^-50 of the
 /// radius share one depth), and the relative precision of a float is the same everywhere.
 [[nodiscard]] View viewOf(const scene::Camera& camera, double sceneRadius);
 

@@ -83,8 +83,10 @@ class Grid {
       left = std::min(left, x);
       right = std::max(right, x);
     };
-    // The outermost rows also hold what rounding pushed beyond the border.
-    const double bottom = row == 0 ? -1.0 : row - kSlack, top = row == resolution_ - 1 ? row + 2.0 : row + 1 + kSlack;
+    // The outermost rows also hold what lies beyond the border.
+    constexpr double kBeyond = std::numeric_limits<double>::infinity();
+    const double bottom = row == 0 ? -kBeyond : row - kSlack,
+                 top = row == resolution_ - 1 ? kBeyond : row + 1 + kSlack;
     for (int i = 0; i < polygon.size; ++i) {
       const Vec2 a = polygon.corners[i], b = polygon.corners[(i + 1) % polygon.size];
       if (a.y >= bottom && a.y <= top) take(a.x);
@@ -124,15 +126,14 @@ class ParallelView {
     const Vec3 helper = std::abs(direction.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
     u_ = glm::normalize(glm::cross(direction, helper));
     v_ = glm::cross(direction, u_);
-    Vec2 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
+    std::vector<Vec2> all;
     forEachCounted(casters, silhouette, [&](std::uint32_t, const std::array<Vec3, 3>& corners, std::uint32_t) {
-      for (const Vec3& c : corners) {
-        low = glm::min(low, flat(c));
-        high = glm::max(high, flat(c));
-      }
+      for (const Vec3& c : corners) all.push_back(flat(c));
     });
-    low_ = low;
-    scale_ = resolution / std::max({high.x - low.x, high.y - low.y, std::numeric_limits<double>::min()});
+    const auto [lowX, highX] = extentOfMost(all, &Vec2::x);
+    const auto [lowY, highY] = extentOfMost(all, &Vec2::y);
+    low_ = {lowX, lowY};
+    scale_ = resolution / std::max({highX - lowX, highY - lowY, std::numeric_limits<double>::min()});
   }
 
   static constexpr int kFaces = 1;
@@ -144,6 +145,24 @@ class ParallelView {
   }
 
  private:
+  // What a grid over one coordinate should cover: all points, but for those that lie so far off the others that they would take
+  // the grid away from them; the outermost cells hold these.
+  static std::pair<double, double> extentOfMost(const std::vector<Vec2>& points, double Vec2::*coordinate) {
+    if (points.empty()) return {0.0, 0.0};
+    double low = points[0].*coordinate, high = low;
+    for (const Vec2& p : points) {
+      low = std::min(low, p.*coordinate);
+      high = std::max(high, p.*coordinate);
+    }
+    constexpr std::size_t kSample = 512;
+    std::vector<double> sample;
+    for (std::size_t i = 0; i < points.size(); i += points.size() / kSample + 1) sample.push_back(points[i].*coordinate);
+    std::sort(sample.begin(), sample.end());
+    const double first = sample[sample.size() / 20], last = sample[sample.size() - 1 - sample.size() / 20];
+    const double wide = 4.0 * (last - first);
+    return wide > 0.0 ? std::pair(std::max(low, first - wide), std::min(high, last + wide)) : std::pair(low, high);
+  }
+
   [[nodiscard]] Vec2 flat(const Vec3& p) const { return {glm::dot(p, u_), glm::dot(p, v_)}; }
   Vec3 u_, v_;
   Vec2 low_;

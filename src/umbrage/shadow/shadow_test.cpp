@@ -330,6 +330,19 @@ TEST(LayeringBound, IsExactForAStackAndForAFence) {
   EXPECT_GT(layeringBound(posts, findSilhouette(posts, {1, 0.0001, 0.0001, 0}), 0), 90);
 }
 
+TEST(LayeringBound, IsNotSpoiltByAStrayTriangle) {
+  Soup fence;
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    for (const Vec3f& c : kCubeCorners) fence.positions.push_back(c + Vec3f(2.0f * float(i), 0, 0));
+    for (const mesh::Triangle& t : kCubeFaces) fence.triangles.push_back({8 * i + t[0], 8 * i + t[1], 8 * i + t[2]});
+  }
+  for (const Vec3f& c : {Vec3f(3e7f, 0, 0), Vec3f(3e7f, 1e6f, 2e6f), Vec3f(2e7f, 1e6f, -4e6f)}) fence.positions.push_back(c);
+  fence.triangles.push_back({800, 801, 802});
+  const CasterSet posts = buildCasters(fence.positions, fence.triangles);
+  EXPECT_LE(layeringBound(posts, findSilhouette(posts, {0, 1, 0.2, 0}), 0), 4);
+  EXPECT_LE(layeringBound(posts, findSilhouette(posts, {100, 300, 10, 1}), 0), 4);
+}
+
 RC_GTEST_PROP(LayeringBound, IsNeverTooSmall, ()) {
   const Soup soup = latticeSoup();
   const CasterSet casters = buildCasters(soup.positions, soup.triangles);

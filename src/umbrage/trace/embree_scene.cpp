@@ -98,4 +98,24 @@ void occluded(const Trees& trees, const int* valid, RTCIntersectContext& context
   }
 }
 
+std::vector<std::uint32_t> castersNear(const Trees& trees, const Vec3& at, double radius) {
+  std::vector<std::uint32_t> found;
+  if (trees.casterTriangle.empty()) return found;
+  // What rounding the place to single precision moves it by.
+  const double moved = 0x1p-22 * glm::length(at);
+  RTCPointQuery query{};
+  query.x = static_cast<float>(at.x), query.y = static_cast<float>(at.y), query.z = static_cast<float>(at.z);
+  query.radius = static_cast<float>((1.0 + 0x1p-20) * (radius + moved));
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  const auto note = [](RTCPointQueryFunctionArguments* arguments) {
+    static_cast<std::vector<std::uint32_t>*>(arguments->userPtr)->push_back(arguments->primID);
+    return false;  // the radius stays
+  };
+  rtcPointQuery(trees.casters.get(), &query, &context, note, &found);
+  for (std::uint32_t& primitive : found) primitive = trees.casterTriangle[primitive];
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 }  // namespace umbrage::trace::detail

@@ -16,13 +16,14 @@ struct SurfacePoints8 {
   Vec3Lanes position;  ///< on the triangle's plane
   Vec3Lanes normal;    ///< unit, on the light's side
   Lanes precision;     ///< shadow borders may be displaced by this much along the surface, in scene units
+  Lanes reach;         ///< the largest coordinate of the triangle it lies on when that casts, else 0
   std::array<std::uint32_t, 8> triangle;  ///< the one the point lies on; shadow::kNoTriangle: none
   std::uint32_t active = 0;               ///< bit k: point k is there
 };
 
 /// Shadow rays towards one light: whether the segment from a surface point to the light meets a caster.
 ///
-/// 1. A surface does not shadow itself, nor do surfaces nearer to it than Occlusion::resolution() that cover the point:
+/// 1. A surface does not shadow itself, nor do surfaces that cover the point and are nearer to it than the rounding of either:
 ///    coincident and coplanar ones.
 /// 2. A caster whose plane holds the light hides nothing; one near the light or touching it is decided in double precision.
 /// 3. Points are lifted off their surface by the resolution, which displaces shadow borders by resolution / tan(elevation of
@@ -44,13 +45,19 @@ class LightRays {
   /// The light, homogeneous and relative to the origin of the surfaces.
   [[nodiscard]] const Vec4& light() const { return light_; }
 
+  /// A caster near the light: at least so far from it.
+  struct Near {
+    std::uint32_t triangle;
+    double distance;
+  };
+
  private:
   [[nodiscard]] std::uint32_t hiddenNearLight(const SurfacePoints8& points) const;
 
   const Occlusion& occlusion_;
   Vec4 light_;
   double cut_ = 0.0;                      ///< rays end this far from the light, plus a part of their length
-  std::vector<std::uint32_t> nearLight_;  ///< casters that the shortened rays may miss
+  std::vector<Near> nearLight_;  ///< casters that the shortened rays may miss, the nearest first
 };
 
 }  // namespace umbrage::trace

@@ -14,10 +14,12 @@ namespace {
 
 using shadow::kNoTriangle;
 
-double largestCoordinate(const Box3& box) {
-  if (box.empty()) return 0.0;
-  const Vec3 m = glm::max(glm::abs(box.min), glm::abs(box.max));
-  return std::max({m.x, m.y, m.z});
+std::vector<float> reachesOf(const scene::Surfaces& surfaces) {
+  std::vector<float> reach;
+  reach.reserve(surfaces.triangles.size());
+  for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t)
+    reach.push_back(static_cast<float>(reachOf(surfaces, t)));
+  return reach;
 }
 
 void fill(RTCRay8& to, const Rays8& rays) {
@@ -98,9 +100,9 @@ void rejectWhatIsNotCrossed(const RTCFilterFunctionNArguments* arguments) {
 }  // namespace
 
 Occlusion::Occlusion(std::shared_ptr<const scene::Surfaces> surfaces, std::unique_ptr<Trees> trees)
-    : surfaces_(std::move(surfaces)),
-      trees_(std::move(trees)),
-      resolution_(std::ldexp(16.0, -24) * largestCoordinate(surfaces_->casterBounds)) {}
+    : surfaces_(std::move(surfaces)), trees_(std::move(trees)), reach_(reachesOf(*surfaces_)) {
+  for (const std::uint32_t t : trees_->casterTriangle) largestReach_ = std::max(largestReach_, reach_[t]);
+}
 Occlusion::Occlusion(Occlusion&&) noexcept = default;
 Occlusion& Occlusion::operator=(Occlusion&&) noexcept = default;
 Occlusion::~Occlusion() = default;
@@ -121,6 +123,12 @@ Result<Occlusion> Occlusion::build(std::shared_ptr<const scene::Surfaces> surfac
   trees->casters = std::move(*casters);
   trees->receivers = std::move(*receivers);
   return Occlusion(std::move(surfaces), std::move(trees));
+}
+
+double reachOf(const scene::Surfaces& surfaces, std::uint32_t triangle) {
+  Vec3 most(0.0);
+  for (int k = 0; k < 3; ++k) most = glm::max(most, glm::abs(surfaces.corner(triangle, k)));
+  return std::max({most.x, most.y, most.z});
 }
 
 std::optional<Hit> Occlusion::nearest(const Vec3& from, const Vec3& direction) const {

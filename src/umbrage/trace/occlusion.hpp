@@ -32,6 +32,16 @@ struct Trees;
 
 /// Ray queries against a scene's surfaces. Built once, const afterwards; all queries may run in many threads at once and give
 /// the same answers in any number of them.
+/// The largest coordinate of a triangle's corners.
+[[nodiscard]] double reachOf(const scene::Surfaces& surfaces, std::uint32_t triangle);
+
+/// The rounding of single precision among coordinates up to `reach`: below this distance from each other surfaces count as one.
+///
+/// 16 x 2^-24 x reach. Rounding a start point to float moves it by at most sqrt(3) x 2^-24 of its coordinates, rounding corners
+/// relative to it and the plane equation in the ray tracer by about 10 x 2^-24 more; a start point lifted by this distance
+/// therefore stays on its side of its own triangle (slivers apart, which light_rays filters).
+[[nodiscard]] constexpr double resolution(double reach) { return 0x1p-20 * reach; }
+
 class Occlusion {
  public:
   /// Errors: ErrorCode::device when the ray tracer cannot work here or runs out of memory.
@@ -55,12 +65,11 @@ class Occlusion {
   /// Bit k: ray k meets a caster.
   [[nodiscard]] std::uint32_t meetsCaster(const Rays8& rays) const;
 
-  /// The rounding of single precision in this scene: below this distance from each other surfaces count as one.
-  ///
-  /// 16 x 2^-24 x the largest coordinate of a caster. Rounding a start point to float moves it by at most sqrt(3) x 2^-24 of
-  /// its coordinates, rounding corners relative to it and the plane equation in the ray tracer by about 10 x 2^-24 more; a start
-  /// point lifted by this distance therefore stays on its side of its own triangle (slivers apart, which light_rays filters).
-  [[nodiscard]] double resolution() const { return resolution_; }
+  /// The largest coordinate of a triangle's corners.
+  [[nodiscard]] float reach(std::uint32_t triangle) const { return reach_[triangle]; }
+
+  /// The largest of all that cast.
+  [[nodiscard]] float largestReach() const { return largestReach_; }
 
   /// For the other files of this room.
   [[nodiscard]] const Trees& trees() const { return *trees_; }
@@ -70,7 +79,8 @@ class Occlusion {
 
   std::shared_ptr<const scene::Surfaces> surfaces_;
   std::unique_ptr<Trees> trees_;
-  double resolution_ = 0.0;
+  std::vector<float> reach_;  ///< per triangle
+  float largestReach_ = 0.0f;
 };
 
 /// The parameter t at which from + t x direction meets the plane of `triangle`, in double precision, kept within the triangle's

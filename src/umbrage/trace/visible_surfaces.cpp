@@ -21,7 +21,7 @@ struct View {
   Vec3 eye;  ///< relative to the origin of the surfaces
   scene::PixelRays rays;
   double clear;  ///< distance from the eye in which nothing is
-  double near;   ///< distance from the eye in which single precision may be wrong about a hit
+  double near;   ///< distance from the eye in which single precision may be wrong about a hit, however small the triangle
   double low;    ///< height of the eye over a plane below which it may count as lying in it (liesInPlane)
 };
 
@@ -32,8 +32,9 @@ std::optional<double> exactDepth(const View& view, std::uint32_t triangle, const
   const Vec3 normal = glm::cross(c.b - c.a, c.c - c.a);
   const double slope = glm::dot(normal, direction), square = glm::dot(direction, direction);
   const double area = glm::dot(normal, normal), height = glm::dot(c.a - view.eye, normal);
+  const double near = view.near + 0x1p-16 * double(view.occlusion.reach(triangle));
   const bool edgeOn = slope * slope <= kEdgeOn * kEdgeOn * area * square || height * height <= view.low * view.low * area;
-  if (edgeOn || estimate * estimate * square <= view.near * view.near) return std::nullopt;
+  if (edgeOn || estimate * estimate * square <= near * near) return std::nullopt;
   return height / slope;
 }
 
@@ -71,7 +72,7 @@ void castPacket(const View& view, const Tile& tile, int x, int y, shadow::Surfac
 Result<shadow::SurfaceBuffer> visibleSurfaces(const Occlusion& occlusion, const scene::Camera& camera) {
   const scene::Surfaces& surfaces = occlusion.surfaces();
   const Vec3 eye = camera.eye - surfaces.origin;
-  const double near = 0x1p-18 * glm::length(eye) + 64.0 * occlusion.resolution();
+  const double near = 0x1p-16 * glm::length(eye);
   const double low = 0x1p-25 * (glm::length(eye - surfaces.bounds.centre()) + surfaces.bounds.radius());
   const View view{occlusion, eye, scene::pixelRays(camera), distanceToBox(eye, surfaces.bounds), near, low};
   shadow::SurfaceBuffer out{{camera.width, camera.height, shadow::kNoTriangle},

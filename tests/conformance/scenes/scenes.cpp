@@ -160,11 +160,14 @@ Scene placed(double size, const Vec3& shift) {
 Scene farAway() { return placed(1.0, {85000.25, 446000.5, 12}); }
 Scene justNotMoved() { return placed(1.0, {24, 13, 0}); }
 Scene huge() { return placed(1e6, Vec3(0.0)); }
+// As broken files have them: single precision among the scene's other coordinates must not suffer.
+Mesh strayTriangle() { return shapes::triangle({4e7, 1e7, 0}, {4e7, 1.1e7, 3e6}, {4e7, 1e7, 9e6}); }
 Scene tiny() { return placed(1e-3, Vec3(0.0)); }
 
 struct Row {
   const char* name;
   std::function<Scene()> make;
+  std::vector<Mesh> besides = {};  ///< comes into the scene when its lights and views are chosen
 };
 const std::vector<Row>& table() {
   static const std::vector<Row> rows{{"box", boxAlone},
@@ -192,7 +195,8 @@ const std::vector<Row>& table() {
                                      {"far_away", farAway},
                                      {"just_not_moved", justNotMoved},
                                      {"huge", huge},
-                                     {"tiny", tiny}};
+                                     {"tiny", tiny},
+                                     {"stray_triangle", justNotMoved, {strayTriangle()}}};
   return rows;
 }
 
@@ -210,6 +214,10 @@ Case makeCase(const std::string& name) {
   Case c{name, row->make(), {}, {}};
   c.lights = standardLights(c.scene);
   c.views = standardViews(c.scene, c.lights);
+  for (const Mesh& m : row->besides) {
+    c.scene.instances.push_back({m.name, static_cast<std::uint32_t>(c.scene.meshes.size())});
+    c.scene.meshes.push_back(std::make_shared<Mesh>(m));
+  }
   return c;
 }
 

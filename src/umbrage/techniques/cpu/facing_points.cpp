@@ -18,12 +18,13 @@ constexpr double kSurely = 0x1p-18;
 }  // namespace
 
 std::vector<Plane> planesOf(const scene::Surfaces& surfaces) {
-  std::vector<Plane> planes(surfaces.triangles.size() + 1, Plane{Vec3(0.0), 0.0});
+  std::vector<Plane> planes(surfaces.triangles.size() + 1, Plane{Vec3(0.0), 0.0, 0.0});
   for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t) {
     const Vec3 normal = surfaces.normal(t);
     const double length = glm::length(normal);
     const Vec3 unit = length > 0.0 ? normal / length : Vec3(0.0);
-    planes[t] = {unit, glm::dot(unit, surfaces.corner(t, 0))};
+    planes[t] = {unit, glm::dot(unit, surfaces.corner(t, 0)),
+                 surfaces.casts[t] != 0 ? trace::reachOf(surfaces, t) : 0.0};
   }
   return planes;
 }
@@ -63,6 +64,7 @@ UMBRAGE_LANES void FacingPoints::lookAt(Faces& faces) const {
     const Plane& plane = planes_[std::min<std::size_t>(faces.triangle[k], none)];
     faces.normal.set(k, plane.normal);
     offset[k] = plane.offset;
+    faces.reach[k] = plane.reach;
   }
   const Vec3 eye = eye_;
   const Vec4 light = towards_;
@@ -114,6 +116,7 @@ UMBRAGE_LANES void FacingPoints::placePoints(const Seen8& seen, const Faces& fac
     points.precision[k] = precision * estimate;
   }
   points.normal = faces.normal;
+  points.reach = faces.reach;
   points.triangle = seen.triangle;
 }
 

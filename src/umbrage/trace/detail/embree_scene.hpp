@@ -48,5 +48,8 @@ namespace detail {
 /// tfar of the rays that meet a caster becomes negative. On processors without native packets, ray by ray.
 void occluded(const Trees& trees, const int* valid, RTCIntersectContext& context, RTCRay8& rays);
 
+/// All casters with a point within `radius` of `at`, and perhaps a few that are farther; ascending.
+[[nodiscard]] std::vector<std::uint32_t> castersNear(const Trees& trees, const Vec3& at, double radius);
+
 }  // namespace detail
 }  // namespace umbrage::trace

@@ -14,6 +14,7 @@ namespace umbrage::techniques::detail {
 struct Plane {
   Vec3 normal;
   double offset;
+  double reach;  ///< the largest coordinate of its corners when it casts, else 0
 };
 /// One a triangle, and after them one that stands for no triangle.
 [[nodiscard]] std::vector<Plane> planesOf(const scene::Surfaces& surfaces);
@@ -41,6 +42,7 @@ class FacingPoints {
     /// Distances from the triangle's plane of the eye, at least 0, and of the light (for a direction: the sine of its elevation),
     /// above 0 on the eye's side.
     alignas(64) trace::Lanes eyeHeight, lightHeight;
+    trace::Lanes reach;  ///< as SurfacePoints8 has it
   };
 
   /// `points` of the packet whose first pixel is (x, y). False where there is none, and `points` mean nothing.
