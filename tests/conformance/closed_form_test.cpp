@@ -83,6 +83,7 @@ double borderBetween(const trace::Occlusion& occlusion, const scene::Light& ligh
     points.normal.set(0, {0, 0, 1});
     points.triangle[0] = shadow::kNoTriangle;
     points.precision[0] = 0.0;
+    points.reach[0] = 0.0;
     return rays.hidden(points) != 0;
   };
   EXPECT_NE(hidden(0.0), hidden(1.0));
