@@ -9,7 +9,7 @@ using gl::Compare;
 using gl::StencilOp;
 
 constexpr std::array kTargets{"surface", "tiles", "stencil", "mask", "sum", "picture", "host"};
-constexpr std::array kDraws{"nothing",         "surfaces",        "surfaces that reach far",
+constexpr std::array kDraws{"nothing",         "surfaces",        "surfaces that reach far", "casters through the near rectangle",
                             "sides by z-pass", "sides by z-fail", "caps by z-fail",
                             "the screen"};
 
@@ -81,10 +81,26 @@ struct Planner {
     list.steps.push_back(s);
   }
 
+  // Every surface counts one, whichever way it is wound.
+  void nearCasters(int light, const LightPlan& plan, int group) {
+    const gl::StencilFace up{.pass = StencilOp::increment};
+    PassStep s = step("casters before the eye", "volumes", stencilTarget());
+    s.light = light;
+    s.group = group;
+    s.shader = Shader::finiteVolume;
+    s.draw = Draw::nearCasters;
+    s.state.depth.clamp = false;
+    s.state.stencil = {.test = true, .compare = Compare::always, .front = up, .back = up};
+    if (plan.groups.size() > 1) s.state.stencil.writeMask = kCountBits;
+    if (plan.litArea != placement.viewport) s.state.scissor = plan.litArea;
+    list.steps.push_back(s);
+  }
+
   void volumes(int light, const LightPlan& plan, int group) {
     const GroupPlan& parts = plan.groups[static_cast<std::size_t>(group)];
     const gl::StencilFace failUp{.depthFail = StencilOp::increment}, failDown{.depthFail = StencilOp::decrement};
     const gl::StencilFace passUp{.pass = StencilOp::increment}, passDown{.pass = StencilOp::decrement};
+    if (parts.nearCasters) nearCasters(light, plan, group);
     if (parts.passSides) volume(light, plan, group, Draw::passSides, "sides", nearer(reversed), passUp, passDown);
     if (parts.failSides) volume(light, plan, group, Draw::failSides, "sides", nearer(reversed), failDown, failUp);
     // Near caps lie on the casters and far caps at infinity: none is nearer than the picture, so all fail, without a

@@ -13,7 +13,7 @@ namespace umbrage::render {
 enum class Target { surface, tiles, stencil, mask, sum, picture, host };
 enum class Shader { none, surface, largeSurface, receiverTiles, volume, finiteVolume, keepShadow, lightMask, ambient, light, encode };
 /// What is drawn: nothing, the surfaces (those that reach far apart), a part of a light's volumes, one triangle over the whole target.
-enum class Draw { nothing, surfaces, largeSurfaces, passSides, failSides, failCaps, screen };
+enum class Draw { nothing, surfaces, largeSurfaces, nearCasters, passSides, failSides, failCaps, screen };
 
 /// One pass as plain data.
 struct PassStep {
@@ -41,6 +41,7 @@ struct PassList {
 /// What is counted together.
 struct GroupPlan {
   int eyeCount = 0;  ///< the stencil starts from it, wrapped into the bits that count
+  bool nearCasters = false;  ///< what lies between the near rectangle and the light is counted first, by drawing it
   bool passSides = false, failSides = false, failCaps = false;  ///< which parts of the volumes are not empty
 };
 

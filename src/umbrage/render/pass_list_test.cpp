@@ -62,6 +62,12 @@ TEST(PlanPasses, WrapsTheEyeCountIntoEightBits) {
   EXPECT_EQ(list.steps[0].clearStencil, 1);
 }
 
+TEST(PlanPasses, ZpPlusDrawsCastersFirst) {
+  const LightPlan light{
+      .groups = {{.nearCasters = true, .passSides = true}}, .finite = true, .volumeArea = kAll, .litArea = kAll};
+  EXPECT_TRUE(approval::approved("passes_zp_plus", describe(wholeFrame({light}, Product::masks))));
+}
+
 TEST(PlanPasses, TilesOfReceivers) {
   EXPECT_TRUE(approval::approved("passes_tiles", describe(planTiles(0, {0, 0, 4, 3}))));
 }

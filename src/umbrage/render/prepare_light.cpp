@@ -1,8 +1,11 @@
 #include "umbrage/render/prepare_light.hpp"
 
 #include <array>
+#include <optional>
 #include <utility>
 
+#include "umbrage/base/check.hpp"
+#include "umbrage/render/near_rectangle.hpp"
 #include "umbrage/shadow/hidden_casters.hpp"
 #include "umbrage/shadow/layering.hpp"
 
@@ -98,11 +101,41 @@ shadow::LayerGroups groupsFor(const shadow::CasterSet& casters, const shadow::Si
   return shadow::groupLayers(casters, silhouette, kSharedStencil);
 }
 
-std::vector<Part> partsOf(const VolumeRequest& request, shadow::Silhouette whole, const shadow::LayerGroups& groups) {
+// What the light sees through the near rectangle, which reaches half as far from the eye as any side that is counted.
+std::optional<Mat4> nearView(const VolumeRequest& request) {
+  if (request.counting != Counting::zPassPlus) return std::nullopt;
+  UMBRAGE_CHECK(request.view != nullptr, "a near rectangle is seen in a view");
+  const shadow::CasterSet& casters = request.casters();
+  const double radius = 0.5 * shadow::eyeThreshold(casters, request.light, request.eye);
+  const double reach = glm::length(casters.bounds.centre() - request.eye) + casters.bounds.radius();
+  const Vec4 light = request.light - Vec4(request.eye * request.light.w, 0.0);
+  return throughNearRectangle(*request.view, nearRectangleDistance(*request.view, radius), light, reach);
+}
+
+// What the light sees of a part's casters on its way to the near rectangle.
+IndexRange appendNearCasters(LightVolume& out, const VolumeRequest& request, const Part& part, const Mat4& fromLight) {
+  const shadow::CasterSet& casters = request.casters();
+  const shadow::EyeCount between = shadow::chooseAtEye(casters, part.silhouette, request.eye);
+  const std::size_t first = out.nearPoints.size();
+  for (std::uint32_t t = 0; t < casters.triangles.size(); ++t) {
+    const std::uint32_t c = casters.componentOf[t];
+    if (part.silhouette.side[t] == 0 || between.byZFail[c] == 0 || part.atEye.byZFail[c] != 0) continue;
+    const auto corner = [&](int k) { return casters.corner(t, k) - request.eye; };
+    appendSeen(fromLight, {corner(0), corner(1), corner(2)}, out.nearPoints);
+  }
+  std::vector<std::uint32_t> indices;
+  for (std::size_t i = first; i < out.nearPoints.size(); ++i) indices.push_back(static_cast<std::uint32_t>(2 * i + 1));
+  return append(out.indices, std::move(indices));
+}
+
+std::vector<Part> partsOf(const VolumeRequest& request, shadow::Silhouette whole, const shadow::LayerGroups& groups,
+                          bool countsByDrawing) {
   std::vector<Part> parts;
   for (int g = 0; g < groups.count; ++g) {
     Part part{groups.count > 1 ? shadow::restrictTo(request.casters(), whole, groups, g) : std::move(whole), {}};
-    if (request.counting == Counting::zPass)
+    if (countsByDrawing)
+      part.atEye = shadow::touchesEye(request.casters(), part.silhouette, request.eye);
+    else if (request.counting == Counting::zPass || request.counting == Counting::zPassPlus)
       part.atEye = shadow::countAtEye(request.casters(), part.silhouette, request.eye);
     else if (request.counting == Counting::zMixed)
       part.atEye = shadow::chooseAtEye(request.casters(), part.silhouette, request.eye);
@@ -138,7 +171,7 @@ std::vector<std::uint32_t> passSides(const VolumeRequest& request, const Part& p
 
 void addGroup(LightVolume& out, const VolumeRequest& request, const Part& part, const Shape& shape,
               shadow::LightStats& stats) {
-  VolumeGroup group{.eyeCount = part.atEye.count, .passSides = {}, .failSides = {}, .failCaps = {}};
+  VolumeGroup group{.eyeCount = part.atEye.count, .nearCasters = {}, .passSides = {}, .failSides = {}, .failCaps = {}};
   const bool zFail = request.counting == Counting::zFail;
   if (!zFail) group.passSides = append(out.indices, passSides(request, part, shape, stats));
   if (zFail || part.atEye.byZFailCount > 0) {
@@ -165,6 +198,7 @@ const char* name(Counting counting) {
     case Counting::zFail: return "zfail";
     case Counting::zPass: return "zpass";
     case Counting::zMixed: return "zmixed";
+    case Counting::zPassPlus: return "zp_plus";
   }
   return "?";
 }
@@ -187,7 +221,8 @@ LightVolume prepareVolume(const VolumeRequest& request, shadow::LightStats& stat
   end("useless");
   const shadow::LayerGroups groups = groupsFor(casters, whole);
   end("layers");
-  const std::vector<Part> parts = partsOf(request, std::move(whole), groups);
+  const std::optional<Mat4> throughNear = nearView(request);
+  const std::vector<Part> parts = partsOf(request, std::move(whole), groups, throughNear.has_value());
   end("silhouette");
 
   LightVolume out;
@@ -198,7 +233,11 @@ LightVolume prepareVolume(const VolumeRequest& request, shadow::LightStats& stat
     out.farPoints = shadow::farPoints(casters, *reach, request.light, request.eye);
     stats.endlessCasters = reach->endlessCount();
   }
-  for (const Part& part : parts) addGroup(out, request, part, shape, stats);
+  out.nearDegenerates = request.counting == Counting::zPassPlus && !throughNear;
+  for (const Part& part : parts) {
+    addGroup(out, request, part, shape, stats);
+    if (throughNear) out.groups.back().nearCasters = appendNearCasters(out, request, part, *throughNear);
+  }
   stats.volumeTriangles = out.indices.size() / 3;
   end("extrude");
   return out;
@@ -208,6 +247,7 @@ std::vector<GroupPlan> planGroups(const LightVolume& volume) {
   std::vector<GroupPlan> plans;
   for (const VolumeGroup& group : volume.groups)
     plans.push_back({.eyeCount = group.eyeCount,
+                     .nearCasters = group.nearCasters.count > 0,
                      .passSides = group.passSides.count > 0,
                      .failSides = group.failSides.count > 0,
                      .failCaps = group.failCaps.count > 0});

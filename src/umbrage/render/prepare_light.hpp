@@ -15,8 +15,9 @@ namespace umbrage::render {
 
 /// How the stencil counts. zPass starts from the count at the eye and falls back to z-fail for casters that the eye is too close to
 /// (shadow::countAtEye); zMixed starts from 0 and takes z-fail for every caster that may lie between the eye and the light
-/// (shadow::chooseAtEye).
-enum class Counting { zFail, zPass, zMixed };
+/// (shadow::chooseAtEye); zPassPlus starts from what the graphics card counts by drawing the casters as the light sees them through the
+/// near rectangle.
+enum class Counting { zFail, zPass, zMixed, zPassPlus };
 [[nodiscard]] const char* name(Counting counting);
 
 /// A run of indices in LightVolume::indices.
@@ -27,7 +28,7 @@ struct IndexRange {
 /// What of a light's volumes is counted together.
 struct VolumeGroup {
   int eyeCount = 0;  ///< where the stencil starts
-  IndexRange passSides, failSides, failCaps;
+  IndexRange nearCasters, passSides, failSides, failCaps;
 };
 
 /// What one light's shadow volumes are made of, ready to be uploaded. Computed without OpenGL.
@@ -35,6 +36,8 @@ struct LightVolume {
   Vec4 light{0.0};  ///< homogeneous, relative to the casters' origin
   Counting counting = Counting::zFail;
   std::vector<std::uint32_t> indices;  ///< into doubled vertices (shadow::ShadowVolume)
+  std::vector<Vec4f> nearPoints;       ///< of VolumeGroup::nearCasters, in clip coordinates; index 2i + 1 is point i
+  bool nearDegenerates = false;        ///< zPassPlus had to start from the count at the eye
   std::vector<Vec4f> farPoints;        ///< shadow::farPoints; empty: all at infinity
   /// One, unless a ray may meet more surfaces than 8 bits can count; then as many as 7 bits can, one bit keeping the result.
   std::vector<VolumeGroup> groups;
@@ -55,6 +58,7 @@ struct VolumeRequest {
   VolumeOptions options = kPlainVolumes;
   Box3 receivers;                        ///< all that can receive shadow; needed for finite volumes
   const ReceiverTiles* tiles = nullptr;  ///< needed to leave out hidden parts
+  const View* view = nullptr;            ///< needed for zPassPlus
 
   [[nodiscard]] const shadow::CasterSet& casters() const { return finder.casters(); }
 };

@@ -76,9 +76,10 @@ void bindScreenInputs(gl::Pass& pass, const PassStep& step, const RunInput& inpu
 void draw(gl::Pass& pass, const PassStep& step, const RunInput& input, const GpuLight* light) {
   if (step.draw == Draw::nothing) return;
   pass.use(input.programs.get(step.shader));
-  pass.uniforms(0, light != nullptr ? light->view : *input.view);
+  const bool inPicture = step.draw == Draw::nearCasters;
+  pass.uniforms(0, inPicture ? light->inPicture : light != nullptr ? light->view : *input.view);
   pass.storage(0, input.positions);
-  if (step.shader == Shader::finiteVolume) pass.storage(1, light->farPoints);
+  if (step.shader == Shader::finiteVolume) pass.storage(1, inPicture ? light->nearPoints : light->farPoints);
   const auto volume = [&](const IndexRange& range) { pass.drawIndexed(light->vertices, range.first, range.count); };
   const auto group = static_cast<std::size_t>(step.group);
   switch (step.draw) {
@@ -89,6 +90,7 @@ void draw(gl::Pass& pass, const PassStep& step, const RunInput& input, const Gpu
       pass.storage(1, input.scene->largeTriangles());
       pass.drawIndexed(input.scene->largeVertices(), 0, input.scene->largeIndexCount());
       break;
+    case Draw::nearCasters: volume(light->groups[group].nearCasters); break;
     case Draw::passSides: volume(light->groups[group].passSides); break;
     case Draw::failSides: volume(light->groups[group].failSides); break;
     case Draw::failCaps: volume(light->groups[group].failCaps); break;

@@ -30,13 +30,18 @@ class PhaseClock {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-std::string reasonFor(Counting counting, const shadow::LightStats& stats, std::size_t groups) {
+std::string reasonFor(Counting counting, const shadow::LightStats& stats, const LightVolume& volume) {
+  const std::size_t groups = volume.groups.size();
   const std::string fallen = std::to_string(stats.castersByZFail);
   std::string text = "no caps needed; the eye is outside all shadow volumes";
   if (counting == Counting::zFail)
     text = "right for every eye and every caster";
   else if (counting == Counting::zMixed && stats.castersByZFail > 0)
     text = fallen + " casters by z-fail, since they may lie between the eye and the light, the others by z-pass";
+  else if (counting == Counting::zPassPlus && volume.nearDegenerates)
+    text = "no caps needed; counted at the eye, since the light shines along the near rectangle or lies beside it";
+  else if (counting == Counting::zPassPlus && stats.castersByZFail == 0)
+    text = "no caps needed; the casters are drawn as the light sees them through the near rectangle";
   else if (stats.castersByZFail > 0)
     text = fallen + " casters by z-fail, since the eye touches a side of their shadow volumes";
   else if (stats.eyeCount != 0)
@@ -249,10 +254,14 @@ class StencilTechnique final : public GlTechnique {
                                 .counting = counting_,
                                 .options = volumes,
                                 .receivers = receivers,
-                                .tiles = tiles ? &*tiles : nullptr};
+                                .tiles = tiles ? &*tiles : nullptr,
+                                .view = &view};
     const LightVolume volume = prepareVolume(request, stats, ended);
-    stats.reason = reasonFor(counting_, stats, volume.groups.size());
-    for (const auto& done : {gpu.volume.setAll(volume.indices), gpu.farPoints.setAll(volume.farPoints)})
+    stats.reason = reasonFor(counting_, stats, volume);
+    ViewBlock inPicture = viewBlock(view, origin, homogeneous);
+    inPicture.toClip = Mat4f(1.0f);
+    for (const auto& done : {gpu.volume.setAll(volume.indices), gpu.farPoints.setAll(volume.farPoints),
+                             gpu.inPicture.setOne(inPicture), gpu.nearPoints.setAll(volume.nearPoints)})
       if (!done) return tl::unexpected(done.error());
     gpu.groups = volume.groups;
     if (ended) {

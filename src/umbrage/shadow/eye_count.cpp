@@ -14,14 +14,6 @@ namespace {
 // up to 1e-3; 1e-4 of the scene's radius with the quad's own extent added left no error in thousands of attacks.
 constexpr double kRelativeThreshold = 1e-4;
 
-double thresholdFor(const CasterSet& casters, const Vec4& light, const Vec3& eye) {
-  const Vec3 e = glm::abs(eye);
-  const double ulp = std::numeric_limits<float>::epsilon() * std::max({e.x, e.y, e.z});
-  double reach = casters.bounds.radius();
-  if (light.w != 0.0) reach = std::max(reach, glm::length(eye - Vec3(light) / light.w));
-  return std::max(kRelativeThreshold * reach, 16.0 * ulp);
-}
-
 double squared(const Vec3& v) { return glm::dot(v, v); }
 
 double squaredToSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
@@ -113,8 +105,16 @@ int certainCount(const CasterSet& casters, const Silhouette& silhouette, const V
 
 }  // namespace
 
+double eyeThreshold(const CasterSet& casters, const Vec4& light, const Vec3& eye) {
+  const Vec3 e = glm::abs(eye);
+  const double ulp = std::numeric_limits<float>::epsilon() * std::max({e.x, e.y, e.z});
+  double reach = casters.bounds.radius();
+  if (light.w != 0.0) reach = std::max(reach, glm::length(eye - Vec3(light) / light.w));
+  return std::max(kRelativeThreshold * reach, 16.0 * ulp);
+}
+
 std::vector<std::uint8_t> sidesAtEye(const CasterSet& casters, const Silhouette& silhouette, const Vec3& eye) {
-  const double threshold = thresholdFor(casters, silhouette.light, eye);
+  const double threshold = eyeThreshold(casters, silhouette.light, eye);
   std::vector<std::uint8_t> touched(casters.componentCount, 0);
   for (const SilhouetteEdge& edge : silhouette.edges) {
     if (touched[edge.component] != 0) continue;
@@ -131,22 +131,27 @@ bool liesOnSide(const CasterSet& casters, const SilhouetteEdge& edge, const Vec4
   return isWithin(eye, sideOf(a, b, light), threshold);
 }
 
-EyeCount countAtEye(const CasterSet& casters, const Silhouette& silhouette, const Vec3& eye) {
+EyeCount touchesEye(const CasterSet& casters, const Silhouette& silhouette, const Vec3& eye) {
   EyeCount plan;
-  plan.threshold = thresholdFor(casters, silhouette.light, eye);
+  plan.threshold = eyeThreshold(casters, silhouette.light, eye);
   plan.byZFail = sidesAtEye(casters, silhouette, eye);
   for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
     if (silhouette.side[t] != 0 && plan.byZFail[casters.componentOf[t]] == 0 &&
         isOnCaster(eye, casters, t, plan.threshold))
       plan.byZFail[casters.componentOf[t]] = 1;
   plan.byZFailCount = static_cast<std::size_t>(std::count(plan.byZFail.begin(), plan.byZFail.end(), 1));
+  return plan;
+}
+
+EyeCount countAtEye(const CasterSet& casters, const Silhouette& silhouette, const Vec3& eye) {
+  EyeCount plan = touchesEye(casters, silhouette, eye);
   plan.count = certainCount(casters, silhouette, eye, plan);
   return plan;
 }
 
 EyeCount chooseAtEye(const CasterSet& casters, const Silhouette& silhouette, const Vec3& eye) {
   EyeCount plan;
-  plan.threshold = thresholdFor(casters, silhouette.light, eye);
+  plan.threshold = eyeThreshold(casters, silhouette.light, eye);
   plan.byZFail = sidesAtEye(casters, silhouette, eye);
   for (std::uint32_t c = 0; c < casters.componentCount; ++c)
     if (meets(casters.componentBounds[c], plan.threshold, eye, silhouette.light)) plan.byZFail[c] = 1;

@@ -21,6 +21,12 @@ struct EyeCount {
 [[nodiscard]] std::vector<std::uint8_t> sidesAtEye(const CasterSet& casters, const Silhouette& silhouette,
                                                    const Vec3& eye);
 
+/// The distance below which a component goes to byZFail.
+[[nodiscard]] double eyeThreshold(const CasterSet& casters, const Vec4& light, const Vec3& eye);
+
+/// As countAtEye, without counting.
+[[nodiscard]] EyeCount touchesEye(const CasterSet& casters, const Silhouette& silhouette, const Vec3& eye);
+
 /// Whether the eye lies on a side (reaching to infinity) as far as single precision can tell. Nothing is seen of such a side, but its depth,
 /// interpolated from corners around the eye, may come out anywhere: z-fail must leave it out.
 [[nodiscard]] bool liesOnSide(const CasterSet& casters, const SilhouetteEdge& edge, const Vec4& light, const Vec3& eye);

@@ -13,6 +13,7 @@
 #include "umbrage/techniques/gl/registry.hpp"
 #include "umbrage/techniques/gl/zfail.hpp"
 #include "umbrage/techniques/gl/zmixed.hpp"
+#include "umbrage/techniques/gl/zp_plus.hpp"
 #include "umbrage/techniques/gl/zpass.hpp"
 
 namespace umbrage::techniques {
@@ -164,6 +165,9 @@ std::unique_ptr<render::GlTechnique> reducedZPass(std::shared_ptr<gl::Context> c
 }
 std::unique_ptr<render::GlTechnique> reducedZMixed(std::shared_ptr<gl::Context> context) {
   return makeZMixed(std::move(context));
+}
+std::unique_ptr<render::GlTechnique> reducedZPassPlus(std::shared_ptr<gl::Context> context) {
+  return makeZPassPlus(std::move(context));
 }
 std::unique_ptr<render::GlTechnique> plainZFail(std::shared_ptr<gl::Context> context) {
   return makeZFail(std::move(context), render::kPlainVolumes);
@@ -460,17 +464,18 @@ TEST_P(StencilTechniques, SurviveEmptyScenesAndOddSizes) {
   EXPECT_EQ(tooWide.error().code, ErrorCode::device);
 }
 
-constexpr std::array kVariants{"zfail", "zpass", "zmixed", "zfail_plain", "zpass_plain"};
+constexpr std::array kVariants{"zfail", "zpass", "zmixed", "zp_plus", "zfail_plain", "zpass_plain"};
 INSTANTIATE_TEST_SUITE_P(Gl, StencilTechniques,
-                         ::testing::Values(reducedZFail, reducedZPass, reducedZMixed, plainZFail, plainZPass),
+                         ::testing::Values(reducedZFail, reducedZPass, reducedZMixed, reducedZPassPlus, plainZFail, plainZPass),
                          [](const auto& which) { return kVariants[which.index]; });
 
 TEST(GlTechniques, AreTheWaysToCount) {
   const auto entries = openGlTechniques();
-  ASSERT_EQ(entries.size(), 3u);
+  ASSERT_EQ(entries.size(), 4u);
   EXPECT_EQ(entries[0].traits.name, "zfail");
   EXPECT_EQ(entries[1].traits.name, "zpass");
   EXPECT_EQ(entries[2].traits.name, "zmixed");
+  EXPECT_EQ(entries[3].traits.name, "zp_plus");
 }
 
 }  // namespace
