@@ -124,9 +124,10 @@ DualPlane dualPlane(const CasterSet& casters, const DualFrame& frame, std::uint3
   const Vec3 ab = casters.corner(triangle, 1) - a, ac = casters.corner(triangle, 2) - a;
   const Vec3 normal = glm::cross(ab, ac), p = glm::abs(ab), q = glm::abs(ac);
   const Vec3 uncancelled(p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x);
-  const double length = glm::length(normal);
-  if (!(length > kLeastSteady * glm::length(uncancelled)) || !(length > 1e-100)) return {};
-  const Vec3 n = normal / length;
+  const double square = glm::dot(normal, normal);
+  const bool steady = square > kLeastSteady * kLeastSteady * glm::dot(uncancelled, uncancelled) && square > 1e-200;
+  if (!steady) return {};
+  const Vec3 n = normal * (1.0 / std::sqrt(square));
   const double d = glm::dot(n, frame.centre - a) / frame.radius;
   return {{float(n.x), float(n.y), float(n.z), float(d)}, true};
 }

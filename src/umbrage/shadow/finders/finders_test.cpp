@@ -300,10 +300,15 @@ TEST(Spread, OrdersTheSameInAnyNumberOfThreadsAndLosesNothing) {
   std::vector<std::array<float, 2>> points(60'000);
   for (auto& p : points) p = {float(between(random, 0, 300)), float(between(random, 0, 9))};
   const auto key = [](const std::array<float, 2>& p, int k) { return p[static_cast<std::size_t>(k)]; };
-  auto one = points, three = points;
-  spread<2>(one, {8, 16}, key, 1);
-  spread<2>(three, {8, 16}, key, 3);
-  EXPECT_EQ(one, three);
+  const auto ordered = [&](unsigned threads) {
+    std::vector<std::array<float, 2>> all(points.size());
+    spread<2>(std::span<const std::array<float, 2>>(points), {8, 16}, key, threads, [&](std::size_t first, auto some) {
+      std::copy(some.begin(), some.end(), all.begin() + static_cast<std::ptrdiff_t>(first));
+    });
+    return all;
+  };
+  auto one = ordered(1);
+  EXPECT_EQ(one, ordered(3));
   std::sort(points.begin(), points.end());
   std::sort(one.begin(), one.end());
   EXPECT_EQ(one, points);

@@ -31,7 +31,7 @@ Hextree::Hextree(std::shared_ptr<const CasterSet> casters, const FinderOptions& 
   DualEdges dual = dualEdges(*casters);
   frame_ = dual.frame;
   always_ = std::move(dual.always);
-  tree_ = SegmentTree<8>::build<8>(std::move(dual.segments), threadCount(options.threads), coordinate,
+  tree_ = SegmentTree<8>::build<8>(dual.segments, threadCount(options.threads), coordinate,
                                    [](const DualEdge& s, const auto& add) {
                                      SegmentTree<8>::Point p;
                                      for (int k = 0; k < 8; ++k) p[k] = coordinate(s, k);

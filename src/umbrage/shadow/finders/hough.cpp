@@ -23,8 +23,8 @@ constexpr auto coordinate = [](const DualEdge& segment, int k) {
   return -p[3] * p[k % 3];
 };
 
-SegmentTree<3> makeTree(std::vector<DualEdge> segments, unsigned threads) {
-  return SegmentTree<3>::build<6>(std::move(segments), threads, coordinate, [](const DualEdge& s, const auto& add) {
+SegmentTree<3> makeTree(std::span<const DualEdge> segments, unsigned threads) {
+  return SegmentTree<3>::build<6>(segments, threads, coordinate, [](const DualEdge& s, const auto& add) {
     for (int end = 0; end < 6; end += 3) add({coordinate(s, end), coordinate(s, end + 1), coordinate(s, end + 2)});
   });
 }
@@ -84,8 +84,8 @@ Hough::Hough(std::shared_ptr<const CasterSet> casters, const FinderOptions& opti
   });
   std::transform(border, dual.segments.end(), border, outwardFirst);
   const unsigned threads = threadCount(options.threads);
-  alike_ = makeTree({dual.segments.begin(), border}, threads);
-  opposite_ = makeTree({border, dual.segments.end()}, threads);
+  alike_ = makeTree(std::span(dual.segments.begin(), border), threads);
+  opposite_ = makeTree(std::span(border, dual.segments.end()), threads);
 }
 
 FoundEdges Hough::find(const Vec4& light, const SilhouetteOptions& options) const {

@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -33,12 +34,19 @@ class SegmentTree {
   /// `coordinate(segment, k)`, k < OrderAxes: what brings like segments together. `extend(segment, add)` calls add(point) for each
   /// point that a box around the segment must hold.
   template <int OrderAxes, class Coordinate, class Extend>
-  static SegmentTree build(std::vector<DualEdge> segments, unsigned threads, const Coordinate& coordinate,
+  static SegmentTree build(std::span<const DualEdge> segments, unsigned threads, const Coordinate& coordinate,
                            const Extend& extend) {
-    spread<OrderAxes>(segments, {kLeaf, kArity}, coordinate, threads);
     SegmentTree tree;
-    tree.pack(segments);
-    tree.bound(segments, extend);
+    tree.segmentCount_ = segments.size();
+    tree.blockCount_ = (segments.size() + kLanes - 1) / kLanes;
+    tree.blocks_ = std::make_unique_for_overwrite<SegmentBlock[]>(tree.blockCount_);
+    std::vector<Boxes<Axes>> leaves((tree.leafCount() + kLanes - 1) / kLanes);
+    spread<OrderAxes>(segments, {kLeaf, kArity}, coordinate, threads,
+                      [&](std::size_t first, std::span<const DualEdge> ordered) {
+                        tree.pack(first / kLanes, ordered);
+                        bound(leaves, first / kLeaf, ordered, extend);
+                      });
+    tree.boundNodes(std::move(leaves));
     return tree;
   }
 
@@ -46,14 +54,14 @@ class SegmentTree {
   template <class Judge>
   std::size_t find(const DualPoint& light, const Judge& judge, const TagReader& reader, bool avx2,
                    Collector& out) const {
-    if (blocks_.empty()) return 0;
+    if (blockCount_ == 0) return 0;
     std::vector<std::uint32_t> doubtful;
     visit(levels_.size() - 1, 0, judge, reader, doubtful, out);
     return readBlocks(doubtful, light, reader, avx2, out);
   }
 
   [[nodiscard]] std::size_t memory() const {
-    std::size_t bytes = blocks_.capacity() * sizeof(SegmentBlock);
+    std::size_t bytes = blockCount_ * sizeof(SegmentBlock);
     for (const auto& level : levels_) bytes += level.capacity() * sizeof(Boxes<Axes>);
     return bytes;
   }
@@ -88,33 +96,33 @@ class SegmentTree {
     }
   }
 
-  void pack(std::span<const DualEdge> segments) {
-    segmentCount_ = segments.size();
-    blocks_.reserve((segments.size() + kLanes - 1) / kLanes);
+  void pack(std::size_t block, std::span<const DualEdge> segments) {
     for (std::size_t first = 0; first < segments.size(); first += kLanes) {
-      SegmentBlock block{};
+      SegmentBlock packed{};
       for (std::size_t i = 0; i < std::min<std::size_t>(kLanes, segments.size() - first); ++i) {
         const DualEdge& s = segments[first + i];
         for (int end = 0; end < 2; ++end)
-          for (int k = 0; k < 4; ++k) block.point[end][k][i] = s.point[end][k];
-        block.tag[i] = s.tag;
+          for (int k = 0; k < 4; ++k) packed.point[end][k][i] = s.point[end][k];
+        packed.tag[i] = s.tag;
       }
-      blocks_.push_back(block);
+      blocks_[block++] = packed;
     }
   }
 
   template <class Extend>
-  void bound(std::span<const DualEdge> segments, const Extend& extend) {
-    if (blocks_.empty()) return;
-    std::vector<Boxes<Axes>> level((leafCount() + kLanes - 1) / kLanes);
-    for (std::size_t i = 0; i < leafCount(); ++i) {
+  static void bound(std::vector<Boxes<Axes>>& leaves, std::size_t leaf, std::span<const DualEdge> segments,
+                    const Extend& extend) {
+    for (std::size_t first = 0; first < segments.size(); first += kLeaf) {
       Box box;
-      const std::size_t first = i * kLeaf;
       for (const DualEdge& s : segments.subspan(first, std::min(kLeaf, segments.size() - first)))
         extend(s, [&](const Point& p) { box.add(p); });
-      store(level, i, box);
+      store(leaves, leaf++, box);
     }
-    levels_.push_back(std::move(level));
+  }
+
+  void boundNodes(std::vector<Boxes<Axes>> leaves) {
+    if (blockCount_ == 0) return;
+    levels_.push_back(std::move(leaves));
     for (std::size_t count = leafCount(); count > kArity;) {
       const std::size_t nodes = (count + kArity - 1) / kArity;
       std::vector<Boxes<Axes>> coarser((nodes + kLanes - 1) / kLanes);
@@ -154,14 +162,14 @@ class SegmentTree {
         if (level > 0)
           visit(level - 1, child, judge, reader, doubtful, out);
         else
-          for (std::size_t i = child * kLeafBlocks; i < std::min((child + 1) * kLeafBlocks, blocks_.size()); ++i)
+          for (std::size_t i = child * kLeafBlocks; i < std::min((child + 1) * kLeafBlocks, blockCount_); ++i)
             doubtful.push_back(static_cast<std::uint32_t>(i));
       }
     }
   }
 
   void takeAll(std::size_t first, std::size_t count, bool falling, const TagReader& reader, Collector& out) const {
-    for (std::size_t b = first; b < std::min(first + count, blocks_.size()); ++b)
+    for (std::size_t b = first; b < std::min(first + count, blockCount_); ++b)
       for (std::size_t i = 0; i < lanesOf(b); ++i) reader.crossed(blocks_[b].tag[i], falling, out);
   }
 
@@ -184,9 +192,10 @@ class SegmentTree {
     return std::min<std::size_t>(kLanes, segmentCount_ - block * kLanes);
   }
 
-  [[nodiscard]] std::size_t leafCount() const { return (blocks_.size() + kLeafBlocks - 1) / kLeafBlocks; }
+  [[nodiscard]] std::size_t leafCount() const { return (blockCount_ + kLeafBlocks - 1) / kLeafBlocks; }
 
-  std::vector<SegmentBlock> blocks_;
+  std::unique_ptr<SegmentBlock[]> blocks_;
+  std::size_t blockCount_ = 0;
   std::vector<std::vector<Boxes<Axes>>> levels_;  ///< boxes of the children; levels_[0] bounds leaves
   std::size_t segmentCount_ = 0;
 };

@@ -1,7 +1,7 @@
 // Orders items so that neighbours in the list are neighbours in space: a tree without pointers.
 //
 // Large lists are first laid into cells that halve a sample of them again and again along its widest axis: one comparison an item and
-// halving, and one move in all. Within cells that fit into the cache the halvings are exact.
+// halving. Stretches of that order, which fit into the cache, are then halved exactly.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -108,16 +107,6 @@ void halve(const Item* items, std::span<std::uint32_t> order, std::uint64_t* roo
   halve<Axes>(items, order.subspan(half), room, shape, key);
 }
 
-/// The same, from one list into another.
-template <int Axes, class Item, class Key>
-void halve(std::span<const Item> from, Item* to, const TreeShape& shape, const Key& key) {
-  std::vector<std::uint32_t> order(from.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::vector<std::uint64_t> room(from.size());
-  halve<Axes>(from.data(), std::span(order), room.data(), shape, key);
-  for (const std::uint32_t i : order) *to++ = from[i];
-}
-
 /// A complete tree of planes: cell i of level k goes left at node 2^k - 1 + i.
 struct Cells {
   struct Plane {
@@ -158,9 +147,9 @@ void divide(Cells& cells, std::span<Item> sample, std::size_t node, const Key& k
   divide<Axes>(cells, sample.subspan(sample.size() / 2), 2 * node + 2, key);
 }
 
-/// Puts the items cell by cell; about `perCell` share one.
+/// The items' numbers cell by cell; about `perCell` share one.
 template <int Axes, class Item, class Key>
-void layIntoCells(std::span<const Item> items, Item* out, std::size_t perCell, const Key& key) {
+std::vector<std::uint32_t> byCells(std::span<const Item> items, std::size_t perCell, const Key& key) {
   constexpr std::size_t kSamples = 16;  // a cell
   Cells cells;
   cells.levels = static_cast<unsigned>(std::bit_width(items.size() / perCell));
@@ -170,30 +159,44 @@ void layIntoCells(std::span<const Item> items, Item* out, std::size_t perCell, c
   for (std::size_t i = 0; i < items.size(); i += step) sample.push_back(items[i]);
   divide<Axes>(cells, std::span(sample), 0, key);
   const std::vector<std::uint32_t> cell = cells.cellsOf(items, key);
-  std::vector<std::uint32_t> next((std::size_t{1} << cells.levels) + 1, 0);
+  std::vector<std::uint32_t> next((std::size_t{1} << cells.levels) + 1, 0), order(items.size());
   for (const std::uint32_t c : cell) ++next[c + 1];
   for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
-  for (std::size_t i = 0; i < items.size(); ++i) out[next[cell[i]]++] = items[i];
+  for (std::uint32_t i = 0; i < items.size(); ++i) order[next[cell[i]]++] = i;
+  return order;
+}
+
+inline std::vector<std::uint32_t> numbers(std::size_t count) {
+  std::vector<std::uint32_t> all(count);
+  for (std::uint32_t i = 0; i < count; ++i) all[i] = i;
+  return all;
 }
 
 }  // namespace spreading
 
-/// Halves the items again and again along their widest axis. `key(item, axis)` is finite.
+/// Halves the items again and again along their widest axis. `key(item, axis)` is finite. Calls emit(first, ordered) for one stretch of
+/// the order after the other, whose borders are those of nodes; from several threads at once.
 /// 1. The order depends on the items alone, not on the number of threads.
-template <int Axes, class Item, class Key>
-void spread(std::vector<Item>& items, const TreeShape& shape, const Key& key, unsigned threads) {
-  const std::size_t cached = shape.leaf * shape.arity * shape.arity / 2;
-  const auto rough = std::make_unique_for_overwrite<Item[]>(items.size());
-  if (items.size() > 4 * cached)
-    spreading::layIntoCells<Axes>(std::span<const Item>(items), rough.get(), cached, key);
-  else
-    std::copy(items.begin(), items.end(), rough.get());
-  const std::size_t runs = (items.size() + cached - 1) / cached;
-  const auto parts = static_cast<unsigned>(std::clamp<std::size_t>(runs / 16, 1, threads));
-  inParts(runs, 1, parts, [&](unsigned, std::size_t first, std::size_t last) {
-    for (std::size_t begin = first * cached; begin < std::min(last * cached, items.size()); begin += cached)
-      spreading::halve<Axes>(std::span<const Item>(rough.get() + begin, std::min(cached, items.size() - begin)),
-                             items.data() + begin, shape, key);
+template <int Axes, class Item, class Key, class Emit>
+void spread(std::span<const Item> items, const TreeShape& shape, const Key& key, unsigned threads, const Emit& emit) {
+  const std::size_t stretch = shape.leaf * shape.arity * 8;
+  const std::vector<std::uint32_t> order =
+      items.size() > 4 * stretch ? spreading::byCells<Axes>(items, stretch, key) : spreading::numbers(items.size());
+  const std::size_t stretches = (items.size() + stretch - 1) / stretch;
+  const auto parts = static_cast<unsigned>(std::clamp<std::size_t>(stretches / 16, 1, threads));
+  inParts(stretches, 1, parts, [&](unsigned, std::size_t firstStretch, std::size_t lastStretch) {
+    std::vector<Item> here, ordered;  // small enough for the cache
+    std::vector<std::uint64_t> room(stretch);
+    for (std::size_t first = firstStretch * stretch; first < std::min(lastStretch * stretch, items.size());
+         first += stretch) {
+      const auto numbers = std::span(order).subspan(first, std::min(stretch, items.size() - first));
+      here.clear(), ordered.clear();
+      for (const std::uint32_t i : numbers) here.push_back(items[i]);
+      std::vector<std::uint32_t> local = spreading::numbers(here.size());
+      spreading::halve<Axes>(here.data(), std::span(local), room.data(), shape, key);
+      for (const std::uint32_t i : local) ordered.push_back(here[i]);
+      emit(first, std::span<const Item>(ordered));
+    }
   });
 }
 
