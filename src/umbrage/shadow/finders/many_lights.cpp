@@ -13,12 +13,8 @@
 #include <utility>
 
 #include "umbrage/shadow/finders/dual_space.hpp"
-#include "umbrage/shadow/finders/simd.hpp"
+#include "umbrage/shadow/finders/light_bits.hpp"
 #include "umbrage/shadow/finders/threads.hpp"
-
-#ifdef UMBRAGE_HAVE_AVX2
-#include <immintrin.h>
-#endif
 
 namespace umbrage::shadow {
 namespace {
@@ -29,81 +25,6 @@ constexpr std::size_t kSampled = 16;           // one block in so many is counte
 constexpr std::uint32_t kNegative = 1u << 31;  // in either use: the triangle is used with sign -1
 constexpr std::uint32_t kHalf = 1u << 30;      // in the first: one face, named twice; in the second: of a convex solid
 constexpr std::uint32_t kTriangle = kHalf - 1;
-
-struct alignas(32) Lights {
-  float axis[4][64];
-};
-
-/// For one light, 64 edges.
-struct EdgeBits {
-  std::uint64_t crossed, positive;
-};
-
-struct Sides {
-  std::uint64_t positive, doubtful;
-};
-
-Sides plainSides(const DualPoint& p, const Lights& l) {
-  Sides sides{};
-  for (int i = 0; i < 64; ++i) {
-    const float value = ((p[0] * l.axis[0][i] + p[1] * l.axis[1][i]) + p[2] * l.axis[2][i]) + p[3] * l.axis[3][i];
-    sides.positive |= std::uint64_t{value > kDoubt} << i;
-    sides.doubtful |= std::uint64_t{value <= kDoubt && value >= -kDoubt} << i;
-  }
-  return sides;
-}
-
-#ifdef UMBRAGE_HAVE_AVX2
-[[gnu::target("avx2")]] Sides wideSides(const DualPoint& p, const Lights& l) {
-  const __m256 p0 = _mm256_set1_ps(p[0]), p1 = _mm256_set1_ps(p[1]), p2 = _mm256_set1_ps(p[2]),
-               p3 = _mm256_set1_ps(p[3]);
-  const __m256 doubt = _mm256_set1_ps(kDoubt), minusDoubt = _mm256_set1_ps(-kDoubt);
-  Sides sides{};
-  for (int i = 0; i < 64; i += kLanes) {
-    __m256 value = _mm256_mul_ps(p0, _mm256_load_ps(l.axis[0] + i));
-    value = _mm256_add_ps(value, _mm256_mul_ps(p1, _mm256_load_ps(l.axis[1] + i)));
-    value = _mm256_add_ps(value, _mm256_mul_ps(p2, _mm256_load_ps(l.axis[2] + i)));
-    value = _mm256_add_ps(value, _mm256_mul_ps(p3, _mm256_load_ps(l.axis[3] + i)));
-    const __m256 positive = _mm256_cmp_ps(value, doubt, _CMP_GT_OQ);
-    const __m256 sure = _mm256_or_ps(positive, _mm256_cmp_ps(value, minusDoubt, _CMP_LT_OQ));
-    sides.positive |= std::uint64_t{static_cast<std::uint32_t>(_mm256_movemask_ps(positive))} << i;
-    sides.doubtful |= std::uint64_t{~static_cast<std::uint32_t>(_mm256_movemask_ps(sure)) & 0xffu} << i;
-  }
-  return sides;
-}
-#endif
-
-// A square of bits about its diagonal: bit j of word i becomes bit i of word j.
-[[gnu::always_inline]] inline void transposeSquare(std::array<std::uint64_t, 64>& square) {
-  std::uint64_t mask = 0x00000000ffffffffu;
-  for (unsigned size = 32; size != 0; size >>= 1, mask ^= mask << size) {
-    for (unsigned block = 0; block < 64; block += 2 * size) {
-      for (unsigned i = block; i < block + size; ++i) {
-        const std::uint64_t swapped = ((square[i] >> size) ^ square[i + size]) & mask;
-        square[i] ^= swapped << size;
-        square[i + size] ^= swapped;
-      }
-    }
-  }
-}
-void plainTranspose(std::array<std::uint64_t, 64>& square) { transposeSquare(square); }
-#ifdef UMBRAGE_HAVE_AVX2
-[[gnu::target("avx2")]] void wideTranspose(std::array<std::uint64_t, 64>& square) { transposeSquare(square); }
-#endif
-
-[[gnu::always_inline]] inline std::size_t countCrossed(std::span<const EdgeBits> words) {
-  std::size_t count = 0;
-  for (const EdgeBits& word : words) count += static_cast<std::size_t>(std::popcount(word.crossed));
-  return count;
-}
-#ifdef UMBRAGE_HAVE_AVX2
-[[gnu::target("avx2,popcnt")]] std::size_t wideCount(std::span<const EdgeBits> words) { return countCrossed(words); }
-#endif
-
-template <class Fn>
-void forEachBit(std::uint64_t bits, const Fn& fn) {
-  for (; bits != 0; bits &= bits - 1) fn(static_cast<std::size_t>(std::countr_zero(bits)));
-}
 
 std::uint64_t flip(std::uint32_t use) { return (use & kNegative) != 0 ? ~std::uint64_t{0} : 0; }
 
@@ -116,8 +37,8 @@ struct ManyLights::Turned {
 
 // What is gathered for up to 64 lights.
 struct ManyLights::Group {
-  std::vector<Words> facing;   ///< per triangle, or per normal
-  std::span<const Uses> uses;  ///< of the same
+  std::vector<LightBits> facing;  ///< per triangle, or per normal
+  std::span<const Uses> uses;     ///< of the same
   bool byNormal;
   std::uint64_t live;
   bool halveConvex;
@@ -185,23 +106,16 @@ void ManyLights::shareNormals() {
     for (std::uint32_t& use : uses) use = (use & ~kTriangle) | normalOf_[use & kTriangle];
 }
 
-std::vector<ManyLights::Words> ManyLights::facing(std::span<const Vec4> lights, bool byNormal) const {
-  Lights wide{};
+std::vector<LightBits> ManyLights::facing(std::span<const Vec4> lights, bool byNormal) const {
+  LightBundle bundle{};
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const DualPoint u = dualLight({centre_, radius_}, lights[i]);
-    for (int k = 0; k < 4; ++k) wide.axis[k][i] = u[k];
+    for (int k = 0; k < 4; ++k) bundle.axis[k][i] = u[k];
   }
-  std::vector<Words> words;
+  std::vector<LightBits> words;
   const auto& planes = byNormal ? normals_ : planes_;
   words.reserve(planes.size());
-  for (const DualPoint& plane : planes) {
-#ifdef UMBRAGE_HAVE_AVX2
-    const Sides s = avx2_ ? wideSides(plane, wide) : plainSides(plane, wide);
-#else
-    const Sides s = plainSides(plane, wide);
-#endif
-    words.push_back({s.positive, s.doubtful});
-  }
+  for (const DualPoint& plane : planes) words.push_back(lightBits(plane, bundle, avx2_));
   return words;
 }
 
@@ -215,7 +129,7 @@ ManyLights::Rows ManyLights::rows(std::size_t firstEdge, const Group& group) con
       continue;
     }
     const auto [a, b] = group.uses[firstEdge + i];
-    const Words &first = group.facing[a & kTriangle], &second = group.facing[b & kTriangle];
+    const LightBits &first = group.facing[a & kTriangle], &second = group.facing[b & kTriangle];
     rows.doubtful[i] = (first.doubtful | second.doubtful) & group.live;
     rows.positive[i] = first.positive ^ flip(a);
     rows.crossed[i] = ~(rows.positive[i] ^ second.positive ^ flip(b)) & group.live & ~rows.doubtful[i];
@@ -265,13 +179,8 @@ ManyLights::Turned ManyLights::turn(Group& group) const {
     bookDoubtful(b * kEdges, r, group);
     turned.half[b] = r.half;
     if (!r.any) continue;
-#ifdef UMBRAGE_HAVE_AVX2
-    const auto transpose = avx2_ ? wideTranspose : plainTranspose;
-#else
-    const auto transpose = plainTranspose;
-#endif
-    transpose(r.crossed);
-    transpose(r.positive);
+    transpose(r.crossed, avx2_);
+    transpose(r.positive, avx2_);
     for (std::size_t light = 0; light < lights; ++light)
       turned.words[light * blocks + b] = {r.crossed[light], r.positive[light]};
   }
@@ -281,11 +190,7 @@ ManyLights::Turned ManyLights::turn(Group& group) const {
 void ManyLights::takeTurned(const Turned& turned, std::size_t light, std::vector<SignedEdge>& edges) const {
   const std::size_t blocks = turned.half.size();
   const auto words = std::span(turned.words).subspan(light * blocks, blocks);
-#ifdef UMBRAGE_HAVE_AVX2
-  edges.resize(avx2_ ? wideCount(words) : countCrossed(words));
-#else
-  edges.resize(countCrossed(words));
-#endif
+  edges.resize(countCrossed(words, avx2_));
   SignedEdge* next = edges.data();
   for (std::size_t b = 0; b < blocks; ++b) {
     const std::uint64_t half = turned.half[b], positive = words[b].positive;
@@ -308,7 +213,7 @@ void ManyLights::addManyFaced(Group& group) const {
       bool doubtful = folded;
       for (std::uint32_t u = edge.begin; u < edge.end && !doubtful; ++u) {
         const std::uint32_t triangle = casters_->uses[u].triangle;
-        const Words& words = group.facing[group.byNormal ? normalOf_[triangle] : triangle];
+        const LightBits& words = group.facing[group.byNormal ? normalOf_[triangle] : triangle];
         doubtful = (words.doubtful >> i & 1) != 0;
         sum += (words.positive >> i & 1) != 0 ? casters_->uses[u].sign : -casters_->uses[u].sign;
       }

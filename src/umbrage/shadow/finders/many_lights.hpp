@@ -12,6 +12,8 @@
 
 namespace umbrage::shadow {
 
+struct LightBits;
+
 /// Silhouettes of one caster set for many lights in one call: the suns of a year. Built once, const afterwards.
 class ManyLights {
  public:
@@ -31,16 +33,13 @@ class ManyLights {
 
  private:
   static constexpr std::size_t kGroup = 64;  ///< lights that share a word
-  struct Words {
-    std::uint64_t positive, doubtful;
-  };
   struct Group;
   struct Rows;
   struct Turned;
 
   using Out = std::span<FoundEdges>;
   void shareNormals();
-  [[nodiscard]] std::vector<Words> facing(std::span<const Vec4> lights, bool byNormal) const;
+  [[nodiscard]] std::vector<LightBits> facing(std::span<const Vec4> lights, bool byNormal) const;
   template <class Done>
   void findGroup(std::span<const Vec4> lights, const SilhouetteOptions& options, Out out, bool keep,
                  const Done& done) const;
