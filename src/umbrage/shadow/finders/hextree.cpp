@@ -1,11 +1,12 @@
 // A tree over the edges in dual space, in which a light is a hyperplane and the silhouette is what it cuts.
 //
-// The published hextree keeps a segment in the smallest fixed cell that holds both its ends. Cells are cut where geometry does not
-// care: the planes of one wall lie on both sides of n.z = 0, their segments stick near the root, and every query tests them. A
-// segment whose orientation is left to chance spans half the space besides. Here
-// 1. a segment has one of its two equivalent forms, chosen by directions that no model is built along, so like edges lie together;
+// The published hextree keeps a segment in the smallest fixed cell that holds both its ends. Cells are cut where geometry does not care:
+// whatever has its ends on either side of n.z = 0 stays at the root, be it as short as it may, and is tested every time. Of a city
+// of boxes that is 64 % of the edges, of a smooth mesh 33 % in the upper four levels, and no depth helps. Here
+// 1. a segment has one of its two equivalent forms, chosen by directions that no model is built along, so that
+//    edges which are crossed alike lie together;
 // 2. there are no cells: segments are ordered by halving them along the axis of their widest spread, all 8 coordinates of the two
-//    ends alike, and every 8 neighbours are a leaf, every 16 nodes a node, with tight boxes around what they hold;
+//    ends alike, and every 16 neighbours are a leaf, every 16 nodes a node, with tight boxes around what they hold;
 // 3. first and second ends have a box each, so a node is not only skipped when both lie on one side of the hyperplane; when they
 //    lie on different sides, all its edges are on the silhouette, with a known sign, untested;
 // 4. bounds carry what rounding can do (kDoubt), and only edges within it go to the predicate.
