@@ -100,6 +100,9 @@ TEST(ParseWords, AllowsOnlyWhatIsKnown) {
   EXPECT_FALSE(parseWords("", {"volumes"}));
   EXPECT_EQ(parseUnit("ft").value(), 0.3048);
   EXPECT_FALSE(parseUnit("km"));
+  EXPECT_EQ(parseFinder("hextree").value(), shadow::FinderKind::hextree);
+  EXPECT_EQ(parseFinder("auto").value(), shadow::FinderKind::automatic);
+  EXPECT_THAT(messageOf(parseFinder("octree")), HasSubstr("potentially_visible"));
   EXPECT_EQ(parseUp("y").value(), scene::UpAxis::y);
   EXPECT_FALSE(parseUp("x"));
 }

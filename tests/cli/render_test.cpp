@@ -187,6 +187,22 @@ TEST_F(RenderCommand, OnlyNamedPartsCast) {
   EXPECT_EQ(lit({"--casters", "wall*", "--casters", "roof*"}), both);
 }
 
+// Which finder runs is said, and changes no byte of the mask.
+TEST_F(RenderCommand, EverySilhouetteFinderGivesTheSameMask) {
+  std::string mask;
+  for (const std::string finder : {"brute_force", "brute_force_simd", "hextree", "hough", "potentially_visible", "auto"}) {
+    const Ran ran = umbrage({"render", "sample:tower", "--technique", "zpass", "--silhouette", finder, "--mask", file("mask.png"),
+                             "--stats", file("s.json"), "--light", "point:20,-30,60", "--size", "200x150"});
+    if (ran.code == 4) GTEST_SKIP() << "no graphics here: " << ran.err;
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    if (mask.empty()) mask = read("mask.png");
+    EXPECT_TRUE(read("mask.png") == mask) << finder;
+    const auto light = readJson(file("s.json"))["lights"][0];
+    if (finder != "auto") EXPECT_EQ(light["silhouette_finder"], finder);
+    EXPECT_GT(light["edges_tested"].get<int>(), 0);
+  }
+}
+
 TEST_F(RenderCommand, CompareAgreesAndSaysSo) {
   const auto box = writeBox();
   const Ran ran = umbrage({"compare", box, "--ground", "--technique", "ray_traced", "--against", "ray_traced", "--size",

@@ -112,6 +112,7 @@ DualFrame dualFrame(const CasterSet& casters) {
 }
 
 DualPoint dualLight(const DualFrame& frame, const Vec4& light) {
+  UMBRAGE_CHECK(light.w == 0.0 || light.w == 1.0, "a light is a point with w = 1 or a direction with w = 0");
   const Vec3 from = Vec3(light) - frame.centre * light.w;
   const double reach = frame.radius * light.w, size = glm::length(from) + reach;
   // Beyond these, squares and products over- or underflow.
