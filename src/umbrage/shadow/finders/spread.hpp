@@ -44,7 +44,7 @@ inline std::uint64_t sortable(float value, std::uint32_t index) {
 
 /// Moves the k smallest of different numbers to the front. Without branches on them, which a processor could not foresee.
 inline void select(std::uint64_t* a, std::size_t n, std::size_t k) {
-  constexpr std::size_t kSmall = 12;
+  constexpr std::size_t kSmall = 8;  // more have five different places to sample
   while (n > kSmall) {
     std::array<std::uint64_t, 5> sample{a[0], a[n / 4], a[n / 2], a[n - n / 4], a[n - 1]};
     for (std::size_t i = 1; i < sample.size(); ++i)
