@@ -198,7 +198,9 @@ TEST_F(RenderCommand, EverySilhouetteFinderGivesTheSameMask) {
     if (mask.empty()) mask = read("mask.png");
     EXPECT_TRUE(read("mask.png") == mask) << finder;
     const auto light = readJson(file("s.json"))["lights"][0];
-    if (finder != "auto") EXPECT_EQ(light["silhouette_finder"], finder);
+    if (finder != "auto") {
+      EXPECT_EQ(light["silhouette_finder"], finder);
+    }
     EXPECT_GT(light["edges_tested"].get<int>(), 0);
   }
 }
