@@ -1,6 +1,6 @@
 // The dual space of planes. A plane n.x + d = 0 is the point (n, d); a homogeneous light l is the hyperplane through the origin
 // with normal l, and the plane faces the light by the side of the hyperplane that its point lies on.
-// Source: Hertzmann and Zorin, Illustrating smooth surfaces, 2000; Schwaiger, Geometry of real time shadows, 2009.
+// Source: Hertzmann and Zorin, Illustrating smooth surfaces, 2000; hextree: Geometry of Real Time Shadows.
 #pragma once
 
 #include <array>

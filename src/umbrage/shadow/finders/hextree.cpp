@@ -10,7 +10,7 @@
 // 3. first and second ends have a box each, so a node is not only skipped when both lie on one side of the hyperplane; when they
 //    lie on different sides, all its edges are on the silhouette, with a known sign, untested;
 // 4. bounds carry what rounding can do (kDoubt), and only edges within it go to the predicate.
-// Source: Hertzmann and Zorin, Illustrating smooth surfaces, 2000; the hextree is that of Geometry of real time shadows, 2009.
+// Source: Hertzmann and Zorin, Illustrating smooth surfaces, 2000; the hextree is that of the paper Geometry of Real Time Shadows.
 #include "umbrage/shadow/finders/hextree.hpp"
 
 #include "umbrage/shadow/finders/threads.hpp"

@@ -3,8 +3,7 @@
 //
 // The planes of a mesh cut a cell of side s of the volume for about s of all faces, so halving cells halves the work and takes four times
 // the memory: where memory is bounded, cost stays proportional to the mesh. Cells with the most open edges are divided first.
-// Source: Milet, Navrátil, Herout and Zemčík, An improved non-manifold mesh shadow volumes computation, 2013; Kobrtek, Milet and
-// Herout, Silhouette extraction for shadow volumes using potentially visible sets, 2018.
+// Source: Kobrtek, Milet and Herout, Silhouette extraction for shadow volumes using potentially visible sets, 2018.
 #include "umbrage/shadow/finders/potentially_visible.hpp"
 
 #include <cmath>
