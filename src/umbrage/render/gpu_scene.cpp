@@ -32,33 +32,31 @@ Result<void> setStorage(gl::Buffer& buffer, std::span<const std::byte> bytes, co
 
 Result<GpuScene> GpuScene::make(const scene::Surfaces& surfaces) {
   GpuScene scene;
-  scene.indexCount_ = 3 * surfaces.triangles.size();
   const std::vector<Vec4f> shading = shadingOf(surfaces);
   for (const auto& done : {setStorage(scene.positions_, std::as_bytes(std::span(surfaces.positions)), "positions"),
                            setStorage(scene.corners_, std::as_bytes(std::span(surfaces.triangles)), "triangles"),
-                           setStorage(scene.triangles_, std::as_bytes(std::span(shading)), "triangles"),
-                           scene.drawn_.setAll(surfaces.triangles)})
+                           setStorage(scene.triangles_, std::as_bytes(std::span(shading)), "triangles")})
     if (!done) return tl::unexpected(done.error());
   scene.vertices_ = gl::VertexArray(scene.drawn_);
   scene.largeVertices_ = gl::VertexArray(scene.largeDrawn_);
   return scene;
 }
 
-Result<void> GpuScene::arrangeFor(const scene::Surfaces& surfaces, const Vec3& eye, const Vec3& forward) {
-  const Arrangement arrangement = arrange(surfaces, eye, forward);
-  std::vector<std::uint32_t> apart = arrangement.edgeOn;
+Result<void> GpuScene::arrangeFor(const shadow::Geometry& geometry, const View& view, int width, int height) {
+  Arrangement arrangement = arrange(geometry, view, width, height);
+  const std::vector<mesh::Triangle>& triangles = geometry.surfaces.triangles;
   std::vector<mesh::Triangle> large;
-  for (const LargeTriangle& t : arrangement.large) {
-    apart.push_back(t.id);
-    large.push_back(surfaces.triangles[t.id]);
-  }
+  for (const LargeTriangle& t : arrangement.large) large.push_back(triangles[t.id]);
   largeIndexCount_ = 3 * large.size();
   for (const auto& done : {large_.setAll(arrangement.large), largeDrawn_.setAll(large)})
     if (!done) return done;
-  if (apart == apart_) return {};
-  std::vector<mesh::Triangle> drawn = surfaces.triangles;
-  for (const std::uint32_t t : apart) drawn[t] = {drawn[t][0], drawn[t][0], drawn[t][0]};  // covers no pixel
-  apart_ = std::move(apart);
+  if (arrangement.ordinary == ordinary_) return {};
+  ordinary_ = std::move(arrangement.ordinary);
+  std::vector<mesh::Triangle> drawn;
+  drawn.reserve(ordinary_.size());
+  for (const std::uint32_t t : ordinary_) drawn.push_back(triangles[t]);
+  indexCount_ = 3 * drawn.size();
+  if (auto done = setStorage(ids_, std::as_bytes(std::span(ordinary_)), "triangles"); !done) return done;
   return drawn_.setAll(drawn);
 }
 

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "umbrage/gl/objects.hpp"
-#include "umbrage/scene/surfaces.hpp"
+#include "umbrage/render/view.hpp"
+#include "umbrage/shadow/technique.hpp"
 
 namespace umbrage::render {
 
@@ -15,14 +16,16 @@ class GpuScene {
   /// Errors: ErrorCode::device when memory is short, or the scene is larger than a buffer of this driver may be.
   [[nodiscard]] static Result<GpuScene> make(const scene::Surfaces& surfaces);
 
-  /// Sorts what is drawn, until the next call, for an eye (Arrangement); all keep their ids.
-  /// `eye` is relative to surfaces.origin. REQUIRES: `surfaces` is what it was made from.
-  [[nodiscard]] Result<void> arrangeFor(const scene::Surfaces& surfaces, const Vec3& eye, const Vec3& forward);
+  /// Chooses what is drawn for a view (Arrangement); before the first call nothing is. All keep their ids.
+  /// REQUIRES: geometry.surfaces is what it was made from.
+  [[nodiscard]] Result<void> arrangeFor(const shadow::Geometry& geometry, const View& view, int width, int height);
 
   [[nodiscard]] const gl::Buffer& positions() const { return positions_; }
   [[nodiscard]] const gl::Buffer& corners() const { return corners_; }
   /// Per triangle: unit normal, and the bits of its material index.
   [[nodiscard]] const gl::Buffer& triangles() const { return triangles_; }
+  /// Per triangle drawn, the large ones apart: its id.
+  [[nodiscard]] const gl::Buffer& ids() const { return ids_; }
   [[nodiscard]] const gl::VertexArray& vertices() const { return vertices_; }
   [[nodiscard]] std::size_t indexCount() const { return indexCount_; }
   /// LargeTriangle, and their corners apart from those of the others.
@@ -32,10 +35,10 @@ class GpuScene {
 
  private:
   GpuScene() = default;
-  gl::Buffer positions_, corners_, triangles_, drawn_, large_, largeDrawn_;
+  gl::Buffer positions_, corners_, triangles_, drawn_, ids_, large_, largeDrawn_;
   gl::VertexArray vertices_, largeVertices_;
   std::size_t indexCount_ = 0, largeIndexCount_ = 0;
-  std::vector<std::uint32_t> apart_;  ///< triangles that `drawn_` leaves out
+  std::vector<std::uint32_t> ordinary_;  ///< as `ids_` has them
 };
 
 /// A buffer that shaders read, or an error that says what was too large.

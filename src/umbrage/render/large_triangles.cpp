@@ -14,6 +14,8 @@ namespace {
 // Sine of the angle at which the eye sees the plane. Measured over the conformance scenes: from 2^-20 to 2^-11 not a pixel
 // changes; with 2^-8 some lose the precision they need, and with none at all the rounding of the corners is magnified.
 constexpr double kFlatSine = 0x1p-14;
+// Below this sine the eye may be on either side, as far as double arithmetic and the rounding of what is drawn can tell.
+constexpr double kSurely = 0x1p-18;
 
 // The corners of a triangle as seen from the eye.
 struct Seen {
@@ -39,18 +41,75 @@ struct Seen {
   }
 };
 
+// The half-spaces that bound the picture, with the eye as their apex, one bit each; a triangle beyond one is not seen.
+class Outcodes {
+ public:
+  Outcodes(const View& view, int width, int height)
+      : right_(row(view, 0)),
+        up_(row(view, 1)),
+        forward_(row(view, 3)),
+        wide_(1.0 + kMargin / width),
+        high_(1.0 + kMargin / height) {}
+
+  [[nodiscard]] std::uint8_t of(const Vec3& fromEye) const {
+    const double x = glm::dot(right_, fromEye), y = glm::dot(up_, fromEye), w = glm::dot(forward_, fromEye);
+    return static_cast<std::uint8_t>((x > wide_ * w) | (x < -wide_ * w) << 1 | (y > high_ * w) << 2 |
+                                     (y < -high_ * w) << 3 | (w < 0.0) << 4);
+  }
+
+ private:
+  static constexpr double kMargin = 8.0;  // four pixels, far beyond any rounding
+  static Vec3 row(const View& view, int i) { return {view.toClip[0][i], view.toClip[1][i], view.toClip[2][i]}; }
+  Vec3 right_, up_, forward_;
+  double wide_, high_;
+};
+
+// The height of the eye over a triangle with sorted corners relative to it, in the sense of lightSide; 0 when in doubt.
+int surelyOnSide(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 normal = glm::cross(b - a, c - a);
+  const double height = glm::dot(normal, a);
+  if (height * height <= kSurely * kSurely * glm::dot(normal, normal) * glm::dot(a, a)) return 0;
+  return height < 0.0 ? +1 : -1;
+}
+
+// Per triangle of the surfaces: 1 when it is an averted face of a convex solid that the eye is outside of.
+std::vector<std::uint8_t> avertedFaces(const shadow::Geometry& geometry, const Vec3& eye) {
+  const shadow::CasterSet& casters = geometry.casters;
+  std::vector<std::uint8_t> averted(geometry.surfaces.triangles.size(), 0), outside(casters.componentCount, 0);
+  std::vector<std::int8_t> side(casters.triangles.size(), 0);
+  for (std::uint32_t t = 0; t < casters.triangles.size(); ++t) {
+    if (casters.outward[t] == 0) continue;
+    const int at = surelyOnSide(casters.corner(t, 0) - eye, casters.corner(t, 1) - eye, casters.corner(t, 2) - eye);
+    side[t] = static_cast<std::int8_t>(at * casters.outward[t]);
+    if (side[t] > 0) outside[casters.componentOf[t]] = 1;
+  }
+  for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
+    averted[casters.surfaceTriangle[t]] = side[t] < 0 && outside[casters.componentOf[t]] != 0 ? 1 : 0;
+  return averted;
+}
+
 }  // namespace
 
-Arrangement arrange(const scene::Surfaces& surfaces, const Vec3& eye, const Vec3& forward) {
+Arrangement arrange(const shadow::Geometry& geometry, const View& view, int width, int height) {
+  const scene::Surfaces& surfaces = geometry.surfaces;
+  const Vec3 eye = view.eye - surfaces.origin;
+  const Vec3 forward(view.toClip[0][3], view.toClip[1][3], view.toClip[2][3]);
+  const Outcodes outcodes(view, width, height);
+  std::vector<std::uint8_t> code;
+  code.reserve(surfaces.positions.size());
+  for (const Vec3f& p : surfaces.positions) code.push_back(outcodes.of(Vec3(p) - eye));
+  const std::vector<std::uint8_t> averted = avertedFaces(geometry, eye);
   Arrangement out;
   for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t) {
+    const mesh::Triangle& corners = surfaces.triangles[t];
+    if (averted[t] != 0 || (code[corners[0]] & code[corners[1]] & code[corners[2]]) != 0) continue;
     const Vec3 a = surfaces.corner(t, 0), b = surfaces.corner(t, 1), c = surfaces.corner(t, 2);
-    if (liesInPlane(a, b, c, eye)) {
-      out.edgeOn.push_back(t);
-      continue;
-    }
+    if (liesInPlane(a, b, c, eye)) continue;
     const Seen seen(a - eye, b - eye, c - eye, forward);
-    if (seen.isLarge()) out.large.push_back({seen.plane(), t, {}});
+    if (seen.isLarge())
+      out.large.push_back({seen.plane(), t, {}});
+    else
+      out.ordinary.push_back(t);
   }
   return out;
 }

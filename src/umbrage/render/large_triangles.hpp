@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "umbrage/math/vec.hpp"
-#include "umbrage/scene/surfaces.hpp"
+#include "umbrage/render/view.hpp"
+#include "umbrage/shadow/technique.hpp"
 
 namespace umbrage::render {
 
@@ -18,17 +18,18 @@ struct LargeTriangle {
   std::array<std::uint32_t, 3> unused;
 };
 
-/// How the triangles of a scene are drawn for one eye.
+/// What of a scene is drawn for one view, and how.
+/// 1. Left out are triangles that cannot be seen: outside the picture; the averted faces of convex solids that the eye is outside
+///    of; and those in whose plane the eye lies (liesInPlane), which single precision might tilt into view: the ground, for an eye
+///    at its very height, would cover half the picture.
 struct Arrangement {
-  /// In whose plane the eye lies (liesInPlane). They are not seen, but single precision might tilt them into view: the ground,
-  /// for an eye at its very height, would cover half the picture.
-  std::vector<std::uint32_t> edgeOn;
+  std::vector<std::uint32_t> ordinary;  ///< ascending
   /// That reach farther than their distance to the eye. What a rasteriser interpolates over them, in single precision from corners far
   /// off the screen, is right to about 2^-16 of the depth; what these planes give is right to 2^-22.
   std::vector<LargeTriangle> large;
 };
 
-/// `eye`: relative to surfaces.origin; `forward`: unit, the direction of view.
-[[nodiscard]] Arrangement arrange(const scene::Surfaces& surfaces, const Vec3& eye, const Vec3& forward);
+/// A view of `width` x `height` pixels. REQUIRES: view is one of viewOf(Camera).
+[[nodiscard]] Arrangement arrange(const shadow::Geometry& geometry, const View& view, int width, int height);
 
 }  // namespace umbrage::render

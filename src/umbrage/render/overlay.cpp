@@ -141,7 +141,7 @@ Result<image::RgbaImage> drawLayer(const std::vector<Mark>& marks, const View& v
   if (!gpuScene) return tl::unexpected(gpuScene.error());
   const Vec3& origin = geometry.surfaces.origin;
   gl::Buffer viewData, shading, markData;
-  for (const auto& done : {gpuScene->arrangeFor(geometry.surfaces, view.eye - origin, scene::basis(camera).forward),
+  for (const auto& done : {gpuScene->arrangeFor(geometry, view, camera.width, camera.height),
                            viewData.setOne(viewBlock(view, origin, Vec4(0.0))), shading.setOne(shadingBlock(camera))})
     if (!done) return tl::unexpected(done.error());
   if (auto done = setStorage(markData, std::as_bytes(std::span(marks)), "marks"); !done)

@@ -84,7 +84,10 @@ void draw(gl::Pass& pass, const PassStep& step, const RunInput& input, const Gpu
   const auto group = static_cast<std::size_t>(step.group);
   switch (step.draw) {
     case Draw::nothing: break;
-    case Draw::surfaces: pass.drawIndexed(input.scene->vertices(), 0, input.scene->indexCount()); break;
+    case Draw::surfaces:
+      pass.storage(1, input.scene->ids());
+      pass.drawIndexed(input.scene->vertices(), 0, input.scene->indexCount());
+      break;
     case Draw::largeSurfaces:
       pass.uniforms(1, *input.shading);
       pass.storage(1, input.scene->largeTriangles());

@@ -149,8 +149,7 @@ class StencilTechnique final : public GlTechnique {
     gl::PassState placement;
     placement.viewport = {0, 0, camera.width, camera.height};
     if (auto done = uploadFrame(view, camera, options); !done) return done;
-    const scene::Surfaces& surfaces = geometry_->surfaces;
-    if (auto done = own_->scene->arrangeFor(surfaces, view.eye - surfaces.origin, scene::basis(camera).forward); !done)
+    if (auto done = own_->scene->arrangeFor(*geometry_, view, camera.width, camera.height); !done)
       return done;
     if (ended) ended("facing");
 
