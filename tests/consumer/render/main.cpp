@@ -25,5 +25,5 @@ int main() {
   }
   const gl::CurrentContext current(*context);
   const auto onCard = render::GpuScene::make(geometry->surfaces);
-  return onCard && onCard->indexCount() == 6 ? 0 : 1;
+  return onCard && onCard->positions().bytes() > 0 ? 0 : 1;
 }
