@@ -78,6 +78,20 @@ struct Planner {
     s.state.stencil = {.test = true, .compare = Compare::always, .front = front, .back = back};
     if (plan.groups.size() > 1) s.state.stencil.writeMask = kCountBits;
     if (area != placement.viewport) s.state.scissor = area;
+    if (plan.twoSided)
+      list.steps.push_back(s);
+    else
+      oneFaceAtATime(s);
+  }
+
+  // What was the back face becomes the front face of the second pass.
+  void oneFaceAtATime(PassStep s) {
+    const gl::StencilFace back = s.state.stencil.back;
+    s.state.cullBack = true;
+    s.state.stencil.back = {};
+    list.steps.push_back(s);
+    s.state.frontIsClockwise = !s.state.frontIsClockwise;
+    s.state.stencil.front = back;
     list.steps.push_back(s);
   }
 

@@ -52,6 +52,7 @@ struct LightPlan {
   /// Caps are compared with the depth, for casters that are not in the depth buffer themselves (drawn later, or transparent);
   /// where they are, that would make caps fight with the surfaces they lie on.
   bool compareCaps = false;
+  bool twoSided = true;  ///< false: a pass for each face
   bool finite = false;  ///< the volumes' ends are given (LightVolume::farPoints)
   gl::Rect volumeArea, litArea;
 };

@@ -68,6 +68,14 @@ TEST(PlanPasses, ZpPlusDrawsCastersFirst) {
   EXPECT_TRUE(approval::approved("passes_zp_plus", describe(wholeFrame({light}, Product::masks))));
 }
 
+TEST(PlanPasses, OneFaceAtATimeWithoutTwoSidedStencil) {
+  const LightPlan light{.groups = {{.failSides = true, .failCaps = true}},
+                        .twoSided = false,
+                        .volumeArea = kAll,
+                        .litArea = kAll};
+  EXPECT_TRUE(approval::approved("passes_one_sided", describe(wholeFrame({light}, Product::masks))));
+}
+
 TEST(PlanPasses, TilesOfReceivers) {
   EXPECT_TRUE(approval::approved("passes_tiles", describe(planTiles(0, {0, 0, 4, 3}))));
 }

@@ -269,6 +269,7 @@ class StencilTechnique final : public GlTechnique {
     }
     return LightPlan{
         .groups = planGroups(volume),
+        .twoSided = volumes.twoSided,
         .finite = !volume.farPoints.empty(),
         .volumeArea = volumeArea(view, casters.bounds, counted, homogeneous, origin, placement),
         .litArea = gl::intersect(litArea(view, light, placement), boxArea(view, receivers, origin, placement))};

@@ -10,6 +10,8 @@ struct VolumeOptions {
   bool hiddenCasters = true;
   /// Volumes, and for z-pass single sides, that lie behind all receivers are left out (ReceiverTiles).
   bool hiddenParts = true;
+  /// Both faces are counted in one pass. Without, as on cards before 2003, the volumes are drawn twice, with one face culled: for comparison.
+  bool twoSided = true;
 };
 
 /// Infinite volumes of all casters, as the textbooks have them.

@@ -10,7 +10,7 @@ namespace umbrage::shadow {
 namespace {
 
 // The planes lie this share of the room's radius outside it: what single precision makes of a volume's end stays clear of receivers.
-constexpr double kMargin = 0x1p-7;
+constexpr double kMargin = 0x1p-10;
 // Sine of the least angle at which light may meet a plane; below it the volume would be drawn out to nearly infinity anyway.
 constexpr double kLeastSine = 0.02;
 

@@ -169,6 +169,9 @@ std::unique_ptr<render::GlTechnique> reducedZMixed(std::shared_ptr<gl::Context> 
 std::unique_ptr<render::GlTechnique> reducedZPassPlus(std::shared_ptr<gl::Context> context) {
   return makeZPassPlus(std::move(context));
 }
+std::unique_ptr<render::GlTechnique> zFailFaceByFace(std::shared_ptr<gl::Context> context) {
+  return makeZFail(std::move(context), {.twoSided = false});
+}
 std::unique_ptr<render::GlTechnique> plainZFail(std::shared_ptr<gl::Context> context) {
   return makeZFail(std::move(context), render::kPlainVolumes);
 }
@@ -464,9 +467,9 @@ TEST_P(StencilTechniques, SurviveEmptyScenesAndOddSizes) {
   EXPECT_EQ(tooWide.error().code, ErrorCode::device);
 }
 
-constexpr std::array kVariants{"zfail", "zpass", "zmixed", "zp_plus", "zfail_plain", "zpass_plain"};
+constexpr std::array kVariants{"zfail", "zpass", "zmixed", "zp_plus", "zfail_face_by_face", "zfail_plain", "zpass_plain"};
 INSTANTIATE_TEST_SUITE_P(Gl, StencilTechniques,
-                         ::testing::Values(reducedZFail, reducedZPass, reducedZMixed, reducedZPassPlus, plainZFail, plainZPass),
+                         ::testing::Values(reducedZFail, reducedZPass, reducedZMixed, reducedZPassPlus, zFailFaceByFace, plainZFail, plainZPass),
                          [](const auto& which) { return kVariants[which.index]; });
 
 TEST(GlTechniques, AreTheWaysToCount) {
