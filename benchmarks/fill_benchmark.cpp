@@ -111,7 +111,8 @@ bool measure(const View& view, int rounds, const std::shared_ptr<gl::Context>& c
     const Times& t = times[i];
     const shadow::LightStats& s = last[i].stats.lights[0];
     std::printf(
-        "  %-24s volumes %7.1f %7.1f ms %6.3f | processor %5.1f | shading %7.1f ms, %5.2f of bare | %7zu triangles, casters hidden "
+        "  %-24s volumes %7.1f %7.1f ms %6.3f | processor %5.1f | shading %7.1f ms, %5.2f of bare | %7zu triangles, "
+        "casters hidden "
         "%zu behind %zu endless %zu, sides behind %zu | %zu pixels differ\n",
         variants()[i].name, least(t.volumes), median(t.volumes), median(t.toPlain), least(t.processor),
         least(t.shading), median(t.toBare), s.volumeTriangles, s.castersHidden, s.castersBehind, s.endlessCasters,
@@ -138,9 +139,13 @@ int main(int argc, char** argv) {
     std::printf("cannot run here: %s\n", context.error().text().c_str());
     return 1;
   }
-  const std::pair<std::string_view, View (*)()> views[] = {
-      {"city_air", cityAir},         {"city_street", cityStreet},   {"city_lamp", cityLamp},
-      {"grooved_knot", groovedKnotView}, {"knot", knot}, {"building_air", fromTheAir}, {"building_street", fromTheStreet}};
+  const std::pair<std::string_view, View (*)()> views[] = {{"city_air", cityAir},
+                                                           {"city_street", cityStreet},
+                                                           {"city_lamp", cityLamp},
+                                                           {"grooved_knot", groovedKnotView},
+                                                           {"knot", knot},
+                                                           {"building_air", fromTheAir},
+                                                           {"building_street", fromTheStreet}};
   for (const auto& [name, make] : views)
     if (only.empty() || name == only)
       if (!measure(make(), rounds, *context)) return 1;

@@ -13,9 +13,7 @@ constexpr double kLeastDistances = 64.0;
 constexpr double kNearLight = 0x1p-20;
 constexpr double kMargin = 1.25;
 
-Vec4 row(const View& view, int r) {
-  return {view.toClip[0][r], view.toClip[1][r], view.toClip[2][r], 0.0};
-}
+Vec4 row(const View& view, int r) { return {view.toClip[0][r], view.toClip[1][r], view.toClip[2][r], 0.0}; }
 
 }  // namespace
 
@@ -51,7 +49,7 @@ void appendSeen(const Mat4& fromLight, const std::array<Vec3, 3>& corners, std::
   std::vector<Vec4> polygon;
   for (const Vec3& c : corners) polygon.push_back(fromLight * Vec4(c, 1.0));
   // A little more than the picture, whose border is no edge of anything.
-  const std::array<Vec4, 6> inside{Vec4(0, 0, 1, 0),       Vec4(0, 0, -1, 1),      Vec4(1, 0, 0, kMargin),
+  const std::array<Vec4, 6> inside{Vec4(0, 0, 1, 0),        Vec4(0, 0, -1, 1),      Vec4(1, 0, 0, kMargin),
                                    Vec4(-1, 0, 0, kMargin), Vec4(0, 1, 0, kMargin), Vec4(0, -1, 0, kMargin)};
   for (const Vec4& plane : inside) {
     std::vector<Vec4> kept;

@@ -18,7 +18,8 @@ namespace umbrage::render {
 /// None where the view degenerates: the light shines along the rectangle, or is about as near to the eye as it.
 /// `light`: homogeneous, relative to the eye. `reach`: how far from the eye casters may be.
 /// Source: S. Hornus, J. Hoberock, S. Lefebvre and J. Hart, ZP+: correct z-pass stencil shadows, 2005.
-[[nodiscard]] std::optional<Mat4> throughNearRectangle(const View& view, double distance, const Vec4& light, double reach);
+[[nodiscard]] std::optional<Mat4> throughNearRectangle(const View& view, double distance, const Vec4& light,
+                                                       double reach);
 
 /// What of a triangle is seen so, as triangles in clip coordinates (w = 1), appended to `out`. Clipped in double precision and on the processor: the view
 /// magnifies thousandfold, and clippers in single precision tear neighbouring triangles apart by a pixel.

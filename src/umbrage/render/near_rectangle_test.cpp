@@ -41,12 +41,13 @@ TEST(NearRectangle, ShowsWhatLiesBetweenItAndTheLightOnThePixelsBehind) {
           EXPECT_NEAR(clip.x / clip.w, x, 1e-9);
           EXPECT_NEAR(clip.y / clip.w, y, 1e-9);
         }
-        EXPECT_FALSE(isInside(*m * Vec4(q - 0.01 * way, 1.0)));                          // beyond the rectangle
+        EXPECT_FALSE(isInside(*m * Vec4(q - 0.01 * way, 1.0)));  // beyond the rectangle
         if (light.w != 0.0) {
           EXPECT_FALSE(isInside(*m * Vec4(q + 1.01 * way, 1.0)));  // beyond the light
         }
       }
-    EXPECT_FALSE(isInside(*m * Vec4(onRectangle(v, 1.1, 0) + 0.3 * (Vec3(light) - onRectangle(v, 1.1, 0) * light.w), 1.0)));
+    EXPECT_FALSE(
+        isInside(*m * Vec4(onRectangle(v, 1.1, 0) + 0.3 * (Vec3(light) - onRectangle(v, 1.1, 0) * light.w), 1.0)));
   }
 }
 
@@ -64,8 +65,8 @@ TEST(NearRectangle, CoversEveryPixelOnceWithTwoTrianglesThatShareAnEdge) {
   const auto m = throughNearRectangle(v, kDistance, light, 50.0);
   ASSERT_TRUE(m);
   // A square across the way from the middle of the rectangle to the light; its diagonal crosses the picture.
-  const Vec3 middle = 0.5 * (onRectangle(v, 0, 0) + Vec3(light)), u = glm::normalize(glm::cross(Vec3(light), Vec3(1, 2, 0))),
-             w = glm::normalize(glm::cross(u, Vec3(light)));
+  const Vec3 middle = 0.5 * (onRectangle(v, 0, 0) + Vec3(light)),
+             u = glm::normalize(glm::cross(Vec3(light), Vec3(1, 2, 0))), w = glm::normalize(glm::cross(u, Vec3(light)));
   const std::array<Vec3, 4> corner{middle - 3.0 * u, middle - 3.0 * w, middle + 3.0 * u, middle + 3.0 * w};
   std::vector<Vec4f> seen;
   appendSeen(*m, {corner[0], corner[1], corner[2]}, seen);

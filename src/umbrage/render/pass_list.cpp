@@ -9,9 +9,9 @@ using gl::Compare;
 using gl::StencilOp;
 
 constexpr std::array kTargets{"surface", "tiles", "stencil", "mask", "sum", "picture", "host"};
-constexpr std::array kDraws{"nothing",         "surfaces",        "surfaces that reach far", "casters through the near rectangle",
-                            "sides by z-pass", "sides by z-fail", "caps by z-fail",
-                            "the screen"};
+constexpr std::array kDraws{
+    "nothing",         "surfaces",        "surfaces that reach far", "casters through the near rectangle",
+    "sides by z-pass", "sides by z-fail", "caps by z-fail",          "the screen"};
 
 Compare nearer(bool reversed) { return reversed ? Compare::greater : Compare::less; }
 

@@ -58,8 +58,8 @@ class Shape {
   // Whether z-pass may count fragments of a side.
   [[nodiscard]] bool mayCount(const shadow::SilhouetteEdge& edge) const {
     const Vec3 a = request_.casters().position(edge.a), b = request_.casters().position(edge.b);
-    const std::array<Vec4, 4> hull{relative(Vec4(a, 1.0)), relative(Vec4(b, 1.0)),
-                                   relative(farEnd(edge.component, a)), relative(farEnd(edge.component, b))};
+    const std::array<Vec4, 4> hull{relative(Vec4(a, 1.0)), relative(Vec4(b, 1.0)), relative(farEnd(edge.component, a)),
+                                   relative(farEnd(edge.component, b))};
     return !request_.tiles->behindAll(hull);
   }
 
@@ -181,8 +181,8 @@ void addGroup(LightVolume& out, const VolumeRequest& request, const Part& part, 
       return part.atEye.byZFail[edge.component] == 0 ||
              !shadow::liesOnSide(request.casters(), edge, request.light, request.eye);
     };
-    shadow::ShadowVolume volume = shadow::extrude(
-        request.casters(), part.silhouette, {.components = chosen, .reach = shape.reach(), .keepSide = isSeen});
+    shadow::ShadowVolume volume = shadow::extrude(request.casters(), part.silhouette,
+                                                  {.components = chosen, .reach = shape.reach(), .keepSide = isSeen});
     group.failSides = append(out.indices, std::move(volume.sides));
     group.failCaps = append(out.indices, std::move(volume.caps));
     if (!zFail) stats.castersByZFail += part.atEye.byZFailCount;

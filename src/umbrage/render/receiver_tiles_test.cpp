@@ -38,9 +38,9 @@ TEST(ReceiverTiles, AreFoundFromPixelsThatFaceTheLight) {
   image::Image<std::uint32_t> ids(33, 18, ~std::uint32_t{0});
   image::Image<float> depths(33, 18, 0.0f);
   const auto set = [&](int x, int y, std::uint32_t id, float depth) { ids(x, y) = id, depths(x, y) = depth; };
-  set(0, 17, 1, 0.5f);   // the lower left tile
-  set(15, 2, 1, 0.25f);  // its uppermost row, for tiles are counted from the bottom
-  set(3, 5, 0, 0.9f);    // turned away
+  set(0, 17, 1, 0.5f);    // the lower left tile
+  set(15, 2, 1, 0.25f);   // its uppermost row, for tiles are counted from the bottom
+  set(3, 5, 0, 0.9f);     // turned away
   set(32, 1, 1, 0.125f);  // the narrow and flat tile in the upper right
   const std::vector<std::uint8_t> facing{0, 1};
   const auto tiles = receiverDepths(ids, depths, facing);

@@ -149,8 +149,7 @@ class StencilTechnique final : public GlTechnique {
     gl::PassState placement;
     placement.viewport = {0, 0, camera.width, camera.height};
     if (auto done = uploadFrame(view, camera, options); !done) return done;
-    if (auto done = own_->scene->arrangeFor(*geometry_, view, camera.width, camera.height); !done)
-      return done;
+    if (auto done = own_->scene->arrangeFor(*geometry_, view, camera.width, camera.height); !done) return done;
     if (ended) ended("facing");
 
     useFinder(frame.silhouettes);
@@ -172,7 +171,8 @@ class StencilTechnique final : public GlTechnique {
       stats.lights.emplace_back();
       auto tiles = addReceivers(scope, i, frame.lights[i], view, camera, volumes, target, input, ended);
       if (!tiles) return tl::unexpected(tiles.error());
-      auto plan = addVolume(own_->lights[i], frame.lights[i], view, volumes, *tiles, placement, stats.lights.back(), ended);
+      auto plan =
+          addVolume(own_->lights[i], frame.lights[i], view, volumes, *tiles, placement, stats.lights.back(), ended);
       if (!plan) return tl::unexpected(plan.error());
       plans.push_back(*plan);
     }
@@ -221,11 +221,11 @@ class StencilTechnique final : public GlTechnique {
     GpuLight& gpu = own_->lights[index];
     const scene::Surfaces& surfaces = geometry_->surfaces;
     const Vec4 homogeneous = scene::homogeneous(light, surfaces.origin);
-    const auto facing =
-        shadow::visibleSideFacesLight(surfaces, Vec4(view.eye - surfaces.origin, 1.0), homogeneous);
+    const auto facing = shadow::visibleSideFacesLight(surfaces, Vec4(view.eye - surfaces.origin, 1.0), homogeneous);
     const ViewBlock viewData = viewBlock(view, surfaces.origin, homogeneous);
     const ShadingBlock shading = withLight(shadingBlock(camera), camera, light);
-    for (const auto& done : {gpu.view.setOne(viewData), gpu.shading.setOne(shading), gpu.facing.setAll(packBits(facing))})
+    for (const auto& done :
+         {gpu.view.setOne(viewData), gpu.shading.setOne(shading), gpu.facing.setAll(packBits(facing))})
       if (!done) return tl::unexpected(done.error());
     if (ended) ended("facing");
     if (!volumes.hiddenParts) return std::nullopt;
@@ -236,9 +236,8 @@ class StencilTechnique final : public GlTechnique {
     return tiles;
   }
 
-  Result<LightPlan> addVolume(GpuLight& gpu, const scene::Light& light, const View& view,
-                              const VolumeOptions& volumes, const std::optional<ReceiverTiles>& tiles,
-                              const gl::PassState& placement,
+  Result<LightPlan> addVolume(GpuLight& gpu, const scene::Light& light, const View& view, const VolumeOptions& volumes,
+                              const std::optional<ReceiverTiles>& tiles, const gl::PassState& placement,
                               shadow::LightStats& stats, const PhaseEnd& ended) {
     const shadow::CasterSet& casters = geometry_->casters;
     const Vec3& origin = geometry_->surfaces.origin;

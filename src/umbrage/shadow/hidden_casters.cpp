@@ -196,9 +196,8 @@ HiddenCasters findHiddenCasters(const CasterSet& casters, const Vec4& light) {
       if (own.size() * triangles.of(solid).size() > kLargestTest) return false;
       if (inside[solid].empty())
         inside[solid] = insideOf(casters, triangles.of(solid), casters.componentBounds[solid], light);
-      return std::all_of(own.begin(), own.end(), [&](std::uint32_t i) {
-        return hides(inside[solid], casters.position(i), light);
-      });
+      return std::all_of(own.begin(), own.end(),
+                         [&](std::uint32_t i) { return hides(inside[solid], casters.position(i), light); });
     });
     hidden.component[c] = found ? 1 : 0;
     hidden.count += found;

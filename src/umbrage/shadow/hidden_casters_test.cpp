@@ -36,9 +36,9 @@ TEST(HiddenCasters, ABoxUnderALargerOne) {
   const HiddenCasters hidden = findHiddenCasters(m.casters(), kOverhead);
   EXPECT_EQ(hidden.component, (std::vector<std::uint8_t>{0, 1, 0}));
   EXPECT_EQ(hidden.count, 1u);
-  EXPECT_EQ(findHiddenCasters(m.casters(), {1.5, 1.5, 3, 1}).count, 0u);   // a lamp between them
+  EXPECT_EQ(findHiddenCasters(m.casters(), {1.5, 1.5, 3, 1}).count, 0u);  // a lamp between them
   EXPECT_EQ(findHiddenCasters(m.casters(), {2, 2, 60, 1}).count, 1u);
-  EXPECT_EQ(findHiddenCasters(m.casters(), {2, 2, 5.5, 1}).count, 0u);     // a lamp inside the upper one
+  EXPECT_EQ(findHiddenCasters(m.casters(), {2, 2, 5.5, 1}).count, 0u);  // a lamp inside the upper one
 }
 
 TEST(HiddenCasters, NoneBehindWhatIsOpenNorBehindTwoTogether) {

@@ -16,7 +16,8 @@ struct Reach {
   static constexpr std::uint8_t kEndless = 6;
   /// Per component: 2 * axis for the plane below the room, 2 * axis + 1 for the one above it; kEndless for none.
   std::vector<std::uint8_t> plane;
-  std::array<double, 6> level{};  ///< of each plane: its coordinate along its axis, relative to the origin of the casters
+  std::array<double, 6>
+      level{};  ///< of each plane: its coordinate along its axis, relative to the origin of the casters
 
   [[nodiscard]] bool isEndless(std::uint32_t component) const { return plane[component] == kEndless; }
   [[nodiscard]] std::size_t endlessCount() const;
@@ -37,6 +38,7 @@ struct Reach {
 [[nodiscard]] Vec4 farPoint(const Reach& reach, std::uint32_t component, const Vec3& corner, const Vec4& light);
 
 /// Per position: its farPoint relative to `eye` in single precision; of positions that no caster uses, anything.
-[[nodiscard]] std::vector<Vec4f> farPoints(const CasterSet& casters, const Reach& reach, const Vec4& light, const Vec3& eye);
+[[nodiscard]] std::vector<Vec4f> farPoints(const CasterSet& casters, const Reach& reach, const Vec4& light,
+                                           const Vec3& eye);
 
 }  // namespace umbrage::shadow

@@ -145,9 +145,9 @@ TEST(Reach, EndsAtTheNearestPlaneBehindTheCaster) {
   Box3 room;
   room.add(Vec3(-10, -10, 0));
   room.add(Vec3(10, 10, 5));
-  EXPECT_EQ(reachWithin(cube, {0.1, 0.2, 0.9, 0.0}, room).plane[0], 4);   // down to the ground
+  EXPECT_EQ(reachWithin(cube, {0.1, 0.2, 0.9, 0.0}, room).plane[0], 4);    // down to the ground
   EXPECT_EQ(reachWithin(cube, {-0.9, 0.2, 0.05, 0.0}, room).plane[0], 1);  // a low sun: out at +x
-  EXPECT_EQ(reachWithin(cube, {0.5, 0.5, -9, 1.0}, room).plane[0], 5);    // a lamp below: up
+  EXPECT_EQ(reachWithin(cube, {0.5, 0.5, -9, 1.0}, room).plane[0], 5);     // a lamp below: up
 }
 
 TEST(Reach, IsEndlessAroundALight) {

@@ -9,8 +9,7 @@ namespace umbrage::techniques {
 namespace {
 
 using ContextSlot = std::shared_ptr<std::shared_ptr<gl::Context>>;
-using Maker = std::unique_ptr<render::GlTechnique> (*)(std::shared_ptr<gl::Context>,
-                                                        const render::VolumeOptions&);
+using Maker = std::unique_ptr<render::GlTechnique> (*)(std::shared_ptr<gl::Context>, const render::VolumeOptions&);
 
 shadow::TechniqueEntry entry(shadow::Traits traits, Maker make, ContextSlot slot,
                              const render::VolumeOptions& options) {
@@ -29,8 +28,7 @@ shadow::TechniqueEntry entry(shadow::Traits traits, Maker make, ContextSlot slot
 std::vector<shadow::TechniqueEntry> openGlTechniques(const render::VolumeOptions& options) {
   const auto slot = std::make_shared<std::shared_ptr<gl::Context>>();
   return {entry(zFailTraits(), makeZFail, slot, options), entry(zPassTraits(), makeZPass, slot, options),
-          entry(zMixedTraits(), makeZMixed, slot, options),
-          entry(zPassPlusTraits(), makeZPassPlus, slot, options)};
+          entry(zMixedTraits(), makeZMixed, slot, options), entry(zPassPlusTraits(), makeZPassPlus, slot, options)};
 }
 
 }  // namespace umbrage::techniques

@@ -8,7 +8,6 @@
 namespace umbrage::techniques {
 
 /// Every technique of this room. The entries of one list share one headless context, made when the first is created.
-[[nodiscard]] std::vector<shadow::TechniqueEntry> openGlTechniques(
-    const render::VolumeOptions& options = {});
+[[nodiscard]] std::vector<shadow::TechniqueEntry> openGlTechniques(const render::VolumeOptions& options = {});
 
 }  // namespace umbrage::techniques

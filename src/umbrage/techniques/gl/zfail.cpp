@@ -10,7 +10,7 @@ shadow::Traits zFailTraits() {
 }
 
 std::unique_ptr<render::GlTechnique> makeZFail(std::shared_ptr<gl::Context> context,
-                                                const render::VolumeOptions& options) {
+                                               const render::VolumeOptions& options) {
   return render::makeStencilTechnique(zFailTraits(), render::Counting::zFail, std::move(context), options);
 }
 

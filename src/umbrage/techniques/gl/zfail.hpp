@@ -10,6 +10,6 @@ namespace umbrage::techniques {
 /// Source: Bilodeau and Songy, 1999; Carmack, 2000; Everitt and Kilgard, practical and robust stenciled shadow volumes, 2002.
 [[nodiscard]] shadow::Traits zFailTraits();
 [[nodiscard]] std::unique_ptr<render::GlTechnique> makeZFail(std::shared_ptr<gl::Context> context,
-                                                              const render::VolumeOptions& options = {});
+                                                             const render::VolumeOptions& options = {});
 
 }  // namespace umbrage::techniques

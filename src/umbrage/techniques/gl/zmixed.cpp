@@ -3,10 +3,12 @@
 namespace umbrage::techniques {
 
 shadow::Traits zMixedTraits() {
-  return {.name = "zmixed",
-          .summary = "Stencil shadow volumes without caps, but with caps for casters that may lie between the eye and the light",
-          .needsGraphics = true,
-          .edgeTolerancePx = 1};
+  return {
+      .name = "zmixed",
+      .summary =
+          "Stencil shadow volumes without caps, but with caps for casters that may lie between the eye and the light",
+      .needsGraphics = true,
+      .edgeTolerancePx = 1};
 }
 
 std::unique_ptr<render::GlTechnique> makeZMixed(std::shared_ptr<gl::Context> context,

@@ -10,7 +10,7 @@ shadow::Traits zPassTraits() {
 }
 
 std::unique_ptr<render::GlTechnique> makeZPass(std::shared_ptr<gl::Context> context,
-                                                const render::VolumeOptions& options) {
+                                               const render::VolumeOptions& options) {
   return render::makeStencilTechnique(zPassTraits(), render::Counting::zPass, std::move(context), options);
 }
 

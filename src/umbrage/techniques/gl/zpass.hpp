@@ -10,6 +10,6 @@ namespace umbrage::techniques {
 /// Source: Heidmann, real shadows, real time, 1991; the count at the eye: shadow::countAtEye.
 [[nodiscard]] shadow::Traits zPassTraits();
 [[nodiscard]] std::unique_ptr<render::GlTechnique> makeZPass(std::shared_ptr<gl::Context> context,
-                                                              const render::VolumeOptions& options = {});
+                                                             const render::VolumeOptions& options = {});
 
 }  // namespace umbrage::techniques
