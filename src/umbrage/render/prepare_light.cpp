@@ -6,6 +6,7 @@
 
 #include "umbrage/base/check.hpp"
 #include "umbrage/render/near_rectangle.hpp"
+#include "umbrage/shadow/finders/threads.hpp"
 #include "umbrage/shadow/hidden_casters.hpp"
 #include "umbrage/shadow/layering.hpp"
 
@@ -78,20 +79,23 @@ class Shape {
 
 bool dropsParts(const VolumeRequest& request) { return request.tiles != nullptr && request.options.hiddenParts; }
 
+constexpr std::uint32_t kComponentsWorthThreads = 1024;
+
 // Which components need not be drawn.
 Components findUseless(const VolumeRequest& request, const Shape& shape, shadow::LightStats& stats) {
   const shadow::CasterSet& casters = request.casters();
   Components useless(casters.componentCount, 0);
-  if (request.options.hiddenCasters) {
-    shadow::HiddenCasters hidden = shadow::findHiddenCasters(casters, request.light);
-    stats.castersHidden = hidden.count;
-    useless = std::move(hidden.component);
+  if (dropsParts(request)) {
+    const unsigned threads = casters.componentCount >= kComponentsWorthThreads ? shadow::threadCount(0) : 1;
+    shadow::inParts(casters.componentCount, 64, threads, [&](unsigned, std::size_t begin, std::size_t end) {
+      for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) useless[c] = shape.holdsReceivers(c) ? 0 : 1;
+    });
+    stats.castersBehind = static_cast<std::size_t>(std::count(useless.begin(), useless.end(), 1));
   }
-  if (!dropsParts(request)) return useless;
-  for (std::uint32_t c = 0; c < casters.componentCount; ++c) {
-    if (useless[c] != 0 || shape.holdsReceivers(c)) continue;
-    useless[c] = 1;
-    ++stats.castersBehind;
+  if (request.options.hiddenCasters) {
+    const shadow::HiddenCasters hidden = shadow::findHiddenCasters(casters, request.light, useless);
+    stats.castersHidden = hidden.count;
+    for (std::uint32_t c = 0; c < casters.componentCount; ++c) useless[c] |= hidden.component[c];
   }
   return useless;
 }

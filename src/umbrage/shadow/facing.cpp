@@ -1,8 +1,10 @@
 #include "umbrage/shadow/facing.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "umbrage/math/predicates.hpp"
+#include "umbrage/shadow/finders/threads.hpp"
 
 namespace umbrage::shadow {
 namespace {
@@ -21,10 +23,14 @@ bool rakes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec4& light) {
 }  // namespace
 
 std::vector<std::uint8_t> visibleSideFacesLight(const scene::Surfaces& surfaces, const Vec4& eye, const Vec4& light) {
-  std::vector<std::uint8_t> facing;
-  facing.reserve(surfaces.triangles.size());
-  for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t)
-    facing.push_back(visibleSideFacesLight(surfaces, t, eye, light) ? 1 : 0);
+  constexpr std::size_t kPerThread = 16384;
+  const std::size_t count = surfaces.triangles.size();
+  const auto threads = static_cast<unsigned>(std::min<std::size_t>(threadCount(0), 1 + count / kPerThread));
+  std::vector<std::uint8_t> facing(count);
+  inParts(count, 64, threads, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (auto t = static_cast<std::uint32_t>(begin); t < end; ++t)
+      facing[t] = visibleSideFacesLight(surfaces, t, eye, light) ? 1 : 0;
+  });
   return facing;
 }
 

@@ -172,7 +172,8 @@ class Solids {
 
 }  // namespace
 
-HiddenCasters findHiddenCasters(const CasterSet& casters, const Vec4& light) {
+HiddenCasters findHiddenCasters(const CasterSet& casters, const Vec4& light, std::span<const std::uint8_t> skip) {
+  UMBRAGE_CHECK(skip.empty() || skip.size() == casters.componentCount, "one entry a component");
   HiddenCasters hidden;
   hidden.component.assign(casters.componentCount, 0);
   std::vector<std::uint8_t> isSolid(casters.componentCount, 0);
@@ -191,6 +192,7 @@ HiddenCasters findHiddenCasters(const CasterSet& casters, const Vec4& light) {
 
   std::vector<std::vector<HalfSpace>> inside(casters.componentCount);
   for (std::uint32_t c = 0; c < casters.componentCount; ++c) {
+    if (!skip.empty() && skip[c] != 0) continue;
     const auto own = corners.of(c);
     const bool found = solids.any(c, [&](std::uint32_t solid) {
       if (own.size() * triangles.of(solid).size() > kLargestTest) return false;
