@@ -5,6 +5,7 @@
 #include "options.hpp"
 #include "umbrage/io/load.hpp"
 #include "umbrage/samples/samples.hpp"
+#include "umbrage/study/georeference.hpp"
 
 namespace umbrage::cli {
 namespace {
@@ -27,6 +28,10 @@ Result<scene::Scene> loadFile(const SceneOptions& options) {
   load.metresPerUnit = options.metresPerUnit;
   load.north = options.north;
   load.lod = options.lod;
+  load.crs = options.crs;
+  load.heightProperty = options.heightProperty;
+  load.defaultHeight = options.defaultHeight;
+  load.floorHeight = options.floorHeight.value_or(load.floorHeight);
   return io::loadScene(options.file, load);
 }
 
@@ -57,6 +62,11 @@ Result<void> checkPatterns(const scene::Scene& scene, const std::vector<std::str
 
 Result<scene::Scene> loadScene(const SceneOptions& options) {
   auto scene = options.file.starts_with(kSamplePrefix) ? makeSample(options) : loadFile(options);
+  if (scene && options.trueNorth) {
+    const auto where = study::georeferenceOf(*scene);
+    if (!where) return fail(where.error().code, "--north true: " + where.error().message, options.file);
+    scene->northOffset = where->trueNorth;
+  }
   if (!scene || options.casters.empty()) return scene;
   if (const auto known = checkPatterns(*scene, options.casters); !known) return tl::unexpected(known.error());
   return scene::withCasters(std::move(*scene), options.casters);

@@ -35,12 +35,29 @@ auto degreesIn(double low, double high) {
 void addSceneOptions(CLI::App& app, SceneOptions& options) {
   addWord(app, "SCENE", "", "A scene file, or sample:NAME", options.file, {.required = true});
   addValue(app, "--up", "y|z", "The axis that points to the sky (default: the format's)", options.up, parseUp, kScene);
-  addValue(app, "--north", "DEG", "True north lies DEG clockwise of the frame's north", options.north,
-           degreesIn(-360, 360), kScene);
+  const auto north = [&options](const std::string& word) -> Result<std::optional<Angle>> {
+    options.trueNorth = word == "true";
+    if (options.trueNorth) return std::optional<Angle>();
+    const auto angle = parseDegrees(word, -360, 360);
+    if (!angle) return tl::unexpected(angle.error());
+    return std::optional(*angle);
+  };
+  addValue(app, "--north", "DEG|true",
+           "True north lies DEG clockwise of the frame's north; true: as the file's reference system says",
+           options.north, north, kScene);
   addValue(app, "--unit", "m|cm|mm|ft|in", "What one unit of the file is (default: the file's own, or m)",
            options.metresPerUnit, parseUnit, kScene);
   addValue(app, "--lod", "LOD", "Level of detail of a CityJSON file (default: the highest)", options.lod, parseWord,
            kScene);
+  addValue(app, "--crs", "EPSG:CODE|local",
+           "What the coordinates are, instead of what the file says; local: metres of no place in particular", options.crs,
+           parseWord, kScene);
+  addValue(app, "--height-property", "NAME", "Footprints: the property that is the height, in metres",
+           options.heightProperty, parseWord, kScene);
+  addValue(app, "--default-height", "M", "Footprints: the height of those that have none", options.defaultHeight,
+           numberIn(0.01, 1000), kScene);
+  addValue(app, "--floor-height", "M", "Footprints: from floor to floor, where only floors are known (default 3)",
+           options.floorHeight, numberIn(0.1, 100), kScene);
   addValues(app, "--casters", "PATTERN", "Only parts with such a name cast shadows ('*' and '?' allowed; repeatable)",
             options.casters, parseWord, kScene);
 }

@@ -19,7 +19,11 @@ struct SceneOptions {
   std::optional<scene::UpAxis> up;
   std::optional<double> metresPerUnit;
   std::optional<Angle> north;
+  bool trueNorth = false;  ///< --north true: as the scene's reference system says
   std::optional<std::string> lod;
+  std::optional<std::string> crs;
+  std::optional<std::string> heightProperty;
+  std::optional<double> defaultHeight, floorHeight;
   std::vector<std::string> casters;  ///< patterns of the parts that cast; empty: all
 };
 void addSceneOptions(CLI::App& app, SceneOptions& options);

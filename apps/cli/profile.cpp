@@ -39,7 +39,7 @@ Result<void> checkFiles(const std::string& picture, const std::string& scene) {
 }
 
 Result<study::Profile> study(const ProfileOptions& options, const View& view, const Console& console) {
-  const auto place = placeOf(options.place);
+  const auto place = placeOf(options.place, view.scene, options.scene, console);
   if (!place) return tl::unexpected(place.error());
   auto chosen = chooseTechnique(options.technique);
   if (!chosen) return tl::unexpected(chosen.error());
@@ -91,7 +91,7 @@ Run addProfile(CLI::App& app) {
   addWord(app, "-o,--output", "OUT.png",
           "The shadows of all steps; beside it OUT-hours.png (time in shadow) and OUT.gif", options->picture,
           {.required = true});
-  addPlaceOptions(app, options->place);
+  addPlaceOptions(app, options->place, PlaceFrom::scene);
   addValue(app, "--from", "HH:MM", "The first moment", options->from, sun::parseTime, time);
   addValue(app, "--to", "HH:MM", "The end of the period", options->to, sun::parseTime, time);
   addValue(app, "--step", "MIN", "Minutes from one moment to the next", options->step, parseStep, time);

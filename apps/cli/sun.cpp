@@ -55,8 +55,8 @@ std::string answerText(const SunOptions& options, const Answer& answer) {
 }
 
 std::string answerJson(const SunOptions& options, const Answer& answer) {
-  return jsonText({{"latitude", options.place.latitude},
-                   {"longitude", options.place.longitude},
+  return jsonText({{"latitude", options.place.latitude.value_or(0.0)},
+                   {"longitude", options.place.longitude.value_or(0.0)},
                    {"date", sun::dateText(options.place.date)},
                    {"time", sun::timeText(options.time)},
                    {"zone", options.place.zone.name},

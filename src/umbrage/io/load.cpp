@@ -25,6 +25,9 @@ Result<void> checkOptions(const LoadOptions& options) {
     return fail(ErrorCode::usage, "the unit must be a positive number of metres");
   if (options.north && !std::isfinite(options.north->radians()))
     return fail(ErrorCode::usage, "north must be a finite angle");
+  for (const double height : {options.defaultHeight.value_or(1.0), options.floorHeight})
+    if (!(height > 0.0 && std::isfinite(height)))
+      return fail(ErrorCode::usage, "the height of a building or floor must be a positive number of metres");
   if (options.timeLimit.count() <= 0) return fail(ErrorCode::usage, "the time limit must be positive");
   return {};
 }
@@ -44,6 +47,10 @@ std::string listOfExtensions() {
   for (const std::string_view extension : detail::extensions())
     list += (list.empty() ? "." : " .") + std::string(extension);
   return list;
+}
+
+detail::Hints hintsOf(const LoadOptions& options) {
+  return {options.lod, options.crs, options.heightProperty, options.defaultHeight, options.floorHeight};
 }
 
 void makePrintable(scene::Scene& scene) {
@@ -71,7 +78,7 @@ Result<scene::Scene> loadScene(const std::filesystem::path& path, const LoadOpti
     return fail(ErrorCode::unsupported,
                 "is of a format that is not known by its extension; readable are " + listOfExtensions(), path.string());
   const auto readerTime = std::chrono::duration_cast<std::chrono::milliseconds>(options.timeLimit * kReadersShare);
-  const auto bytes = detail::runReader({std::filesystem::absolute(path), options.lod, readerTime, options.memoryLimit});
+  const auto bytes = detail::runReader({std::filesystem::absolute(path), hintsOf(options), readerTime, options.memoryLimit});
   if (!bytes) return tl::unexpected(about(path, bytes.error()));
   auto scene = detail::unpack(*bytes);
   if (!scene) return tl::unexpected(about(path, scene.error()));

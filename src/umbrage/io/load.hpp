@@ -20,6 +20,10 @@ struct LoadOptions {
   std::optional<double> metresPerUnit;        ///< instead of the format's own; positive and finite
   std::optional<Angle> north;                 ///< true north lies this much clockwise of the frame's north
   std::optional<std::string> lod;             ///< CityJSON: this level of detail instead of each object's highest
+  std::optional<std::string> crs;  ///< what the coordinates are, instead of what the file says: "EPSG:28992", or "local", metres
+  std::optional<std::string> heightProperty;  ///< GeoJSON: this property alone is the height
+  std::optional<double> defaultHeight;        ///< GeoJSON: metres, for footprints without height and floors; positive
+  double floorHeight = 3.0;                   ///< GeoJSON: metres from floor to floor; positive
   std::chrono::milliseconds timeLimit{9000};  ///< wall clock for the whole call
   std::size_t memoryLimit = std::size_t{1800} << 20;  ///< bytes of address space for the parsers
 };
@@ -29,7 +33,8 @@ inline constexpr std::size_t kMaxTriangles = 20'000'000;
 inline constexpr std::size_t kMaxInstances = 1'000'000;
 
 /// Reads a scene file: glTF 2.0 (.gltf .glb), Wavefront .obj, .ply, .stl, .off, .3ds, .ifc, .x3d, Open Inventor .iv, VRML .wrl,
-/// CityJSON (.json) and CityJSONSeq (.jsonl). Coordinates and units stay the file's own.
+/// CityJSON (.json), CityJSONSeq (.jsonl), and footprints with heights in GeoJSON (.geojson .json). Coordinates and units stay
+/// the file's own, except degrees, which are projected to metres (Scene::crs says how).
 ///
 /// 1. The file is parsed in a process of its own, `umbrage-reader`, with limits on time, memory and size: whatever the file
 ///    does to the parser becomes an Error here. The scene has no fault (scene::findFault).

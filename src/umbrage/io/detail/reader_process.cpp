@@ -103,7 +103,7 @@ std::vector<std::string> arguments(const fs::path& reader, const ReaderJob& job)
                                     std::to_string(handoverLimit(job.memoryLimit)),
                                     std::to_string(seconds),
                                     job.file.string()};
-  if (job.lod) words.push_back(*job.lod);
+  for (std::string& hint : wordsOf(job.hints)) words.push_back(std::move(hint));
   return words;
 }
 

@@ -3,18 +3,18 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "umbrage/base/error.hpp"
+#include "umbrage/io/detail/hints.hpp"
 
 namespace umbrage::io::detail {
 
 /// What the reader process is asked for.
 struct ReaderJob {
   std::filesystem::path file;
-  std::optional<std::string> lod;
+  Hints hints;
   std::chrono::milliseconds timeLimit{0};
   std::size_t memoryLimit = 0;
 };

@@ -6,8 +6,10 @@
 #include <limits>
 #include <set>
 
+#include "umbrage/geo/projection.hpp"
 #include "umbrage/io/reader/city_mesh.hpp"
 #include "umbrage/io/reader/files.hpp"
+#include "umbrage/io/reader/geojson.hpp"
 #include "umbrage/io/reader/json_access.hpp"
 #include "umbrage/io/reader/read.hpp"
 #include "umbrage/io/reader/tidy.hpp"
@@ -38,14 +40,6 @@ std::vector<Vec3> verticesOf(const Json& list, const Transform& transform) {
   return vertices;
 }
 
-// "EPSG:7415" from "urn:ogc:def:crs:EPSG::7415" or "https://www.opengis.net/def/crs/EPSG/0/7415"; anything else as it is.
-std::string shortCrs(const std::string& crs) {
-  const auto authority = crs.find("EPSG");
-  if (authority == std::string::npos) return crs;
-  const auto code = crs.find_last_of(":/");
-  return code == std::string::npos || code < authority ? crs : "EPSG:" + crs.substr(code + 1);
-}
-
 std::string lodText(const Json& lod) {
   if (lod.is_string()) return lod.get<std::string>();
   return lod.is_number() ? lod.dump() : std::string();
@@ -54,18 +48,6 @@ double lodNumber(const std::string& lod) {
   double value = -1.0;
   std::from_chars(lod.data(), lod.data() + lod.size(), value);
   return value;
-}
-
-Result<Json> parse(std::string_view text) {
-  if (auto fine = checkJsonDepth(text); !fine) return tl::unexpected(fine.error());
-  try {
-    return Json::parse(text);
-  } catch (const Json::exception& fault) {
-    const std::string message = fault.what();
-    const auto begin = message.find("] ");
-    return fail(ErrorCode::input,
-                "is not valid JSON: " + (begin == std::string::npos ? message : message.substr(begin + 2)));
-  }
 }
 
 class CityReader {
@@ -100,12 +82,9 @@ class CityReader {
 };
 
 Result<void> CityReader::begin(const Json& document) {
-  const std::string type = textOf(member(document, "type"));
-  if (type == "FeatureCollection" || type == "Feature")
-    return fail(ErrorCode::unsupported, "is GeoJSON, which is not read as a scene");
-  if (type != "CityJSON") return fail(ErrorCode::input, "is not CityJSON: its \"type\" is not \"CityJSON\"");
+  if (textOf(member(document, "type")) != "CityJSON") return fail(ErrorCode::input, "is not CityJSON: its \"type\" is not \"CityJSON\"");
   scene_.up = scene::UpAxis::z;
-  scene_.crs = shortCrs(textOf(member(member(document, "metadata"), "referenceSystem")));
+  scene_.crs = geo::shortName(textOf(member(member(document, "metadata"), "referenceSystem")));
   transform_ = transformOf(document);
   materials_.addAppearance(document);
   const Json& templates = member(document, "geometry-templates");
@@ -248,7 +227,7 @@ scene::Scene CityReader::finish() {
 // A line of a sequence is worth a warning when it is broken, not the loss of the others.
 void addFeature(CityReader& reader, std::string_view line) {
   reader.countLine();
-  const auto feature = parse(line);
+  const auto feature = parseJson(line);
   if (!feature || textOf(member(*feature, "type")) != "CityJSONFeature" || !member(*feature, "CityObjects").is_object())
     return reader.countBrokenLine();
   reader.addObjects(member(*feature, "CityObjects"), member(*feature, "vertices"));
@@ -268,10 +247,11 @@ bool isBlank(std::string_view line) { return line.find_first_not_of(" \t\r") == 
 Result<scene::Scene> readCityJson(const Request& request) {
   auto bytes = readJsonBytes(request.file);
   if (!bytes) return tl::unexpected(bytes.error());
-  auto document = parse(asText(*bytes));
+  auto document = parseJson(asText(*bytes));
   if (!document) return tl::unexpected(document.error());
   *bytes = {};
-  CityReader reader(request.lod);
+  if (isGeoJson(*document)) return sceneOfGeoJson(*document, request.hints);
+  CityReader reader(request.hints.lod);
   if (auto begun = reader.begin(*document); !begun) return tl::unexpected(begun.error());
   reader.addObjects(member(*document, "CityObjects"), member(*document, "vertices"));
   return reader.finish();
@@ -281,9 +261,9 @@ Result<scene::Scene> readCityJsonSeq(const Request& request) {
   const auto bytes = readJsonBytes(request.file);
   if (!bytes) return tl::unexpected(bytes.error());
   std::string_view text = asText(*bytes);
-  auto header = parse(nextLine(text));
+  auto header = parseJson(nextLine(text));
   if (!header) return tl::unexpected(header.error());
-  CityReader reader(request.lod);
+  CityReader reader(request.hints.lod);
   if (auto begun = reader.begin(*header); !begun) return tl::unexpected(begun.error());
   reader.addObjects(member(*header, "CityObjects"), member(*header, "vertices"));
   while (!text.empty())

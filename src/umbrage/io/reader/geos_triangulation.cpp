@@ -1,25 +1,13 @@
 #include "umbrage/io/reader/geos_triangulation.hpp"
 
-#include <geos_c.h>
-
 #include <map>
-#include <memory>
 #include <optional>
 #include <utility>
 
+#include "umbrage/io/reader/geos_handles.hpp"
+
 namespace umbrage::io::reader {
 namespace {
-
-struct EndContext {
-  void operator()(GEOSContextHandle_t context) const { GEOS_finish_r(context); }
-};
-using Context = std::unique_ptr<std::remove_pointer_t<GEOSContextHandle_t>, EndContext>;
-
-struct DestroyGeometry {
-  GEOSContextHandle_t context;
-  void operator()(GEOSGeometry* geometry) const { GEOSGeom_destroy_r(context, geometry); }
-};
-using Geometry = std::unique_ptr<GEOSGeometry, DestroyGeometry>;
 
 using Place = std::pair<double, double>;
 using IndexOf = std::map<Place, std::uint32_t>;
@@ -32,7 +20,7 @@ GEOSGeometry* makeRing(GEOSContextHandle_t context, const std::vector<PlaneCorne
   return GEOSGeom_createLinearRing_r(context, sequence);
 }
 
-Geometry makePolygon(GEOSContextHandle_t context, const PlanePolygon& polygon) {
+GeosGeometry makePolygon(GEOSContextHandle_t context, const PlanePolygon& polygon) {
   std::vector<GEOSGeometry*> holes;
   for (std::size_t i = 1; i < polygon.size(); ++i) holes.push_back(makeRing(context, polygon[i]));
   GEOSGeometry* made = GEOSGeom_createPolygon_r(context, makeRing(context, polygon.front()), holes.data(),
@@ -77,10 +65,10 @@ std::vector<mesh::Triangle> triangulateWithGeos(const PlanePolygon& polygon) {
   const auto indexOf = indexCorners(polygon);
   if (!indexOf) return {};
   // Without handlers GEOS keeps its complaints to itself; the result says enough.
-  const Context context(GEOS_init_r());
-  const Geometry whole = makePolygon(context.get(), polygon);
+  const GeosContext context(GEOS_init_r());
+  const GeosGeometry whole = makePolygon(context.get(), polygon);
   if (whole == nullptr) return {};
-  const Geometry parts(GEOSConstrainedDelaunayTriangulation_r(context.get(), whole.get()),
+  const GeosGeometry parts(GEOSConstrainedDelaunayTriangulation_r(context.get(), whole.get()),
                        DestroyGeometry{context.get()});
   if (parts == nullptr) return {};
   std::vector<mesh::Triangle> triangles;

@@ -3,13 +3,18 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
+#include "umbrage/base/error.hpp"
 #include "umbrage/math/vec.hpp"
 
 // Reading a JSON document that may be anything: nothing here throws, whatever the value is.
 namespace umbrage::io::reader {
 
 using Json = nlohmann::json;
+
+/// The document, or why it is none: not JSON, or nested deeper than the parser survives.
+[[nodiscard]] Result<Json> parseJson(std::string_view text);
 
 /// The member, or a null value.
 inline const Json& member(const Json& object, const char* key) {

@@ -12,6 +12,7 @@
 #include <new>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "umbrage/io/detail/handover.hpp"
 #include "umbrage/io/reader/limits.hpp"
@@ -83,7 +84,8 @@ int main(int argc, char** argv) {
       {std::strtoull(argv[2], nullptr, 10), std::strtoull(argv[3], nullptr, 10), std::strtoull(argv[4], nullptr, 10)});
   Job job;
   job.request.file = argv[5];
-  if (argc > 6) job.request.lod = argv[6];
+  const std::vector<std::string> hints(argv + 6, argv + argc);
+  job.request.hints = umbrage::io::detail::hintsOf(hints);
   const bool done = onLargeStack(job) && writeAll(fd, job.handover);
   // The libraries' own tidying up at exit is one more place to crash in, and the system tidies up anyway.
   std::fflush(nullptr);

@@ -1,5 +1,7 @@
 #include "umbrage/io/reader/read.hpp"
 
+#include "umbrage/geo/projection.hpp"
+#include "umbrage/io/reader/map_frame.hpp"
 #include "umbrage/io/reader/tidy.hpp"
 
 namespace umbrage::io::reader {
@@ -11,13 +13,18 @@ Result<scene::Scene> readAs(const Request& request, detail::Format format) {
     case detail::Format::inventor: return readInventor(request);
     case detail::Format::cityJson: return readCityJson(request);
     case detail::Format::cityJsonSeq: return readCityJsonSeq(request);
+    case detail::Format::geoJson: return readGeoJson(request);
     default: return readWithAssimp(request, format);
   }
 }
 
 bool isDouble(detail::Format format) {
-  return format == detail::Format::cityJson || format == detail::Format::cityJsonSeq || format == detail::Format::gltf;
+  return format == detail::Format::cityJson || format == detail::Format::cityJsonSeq || format == detail::Format::gltf ||
+         format == detail::Format::geoJson;
 }
+
+// Degrees were made metres, so that the file's own reference system is no longer the scene's.
+bool isProjectedHere(const scene::Scene& scene) { return scene.crs.starts_with("+proj=tmerc"); }
 
 }  // namespace
 
@@ -27,6 +34,9 @@ Result<scene::Scene> read(const Request& request) {
   auto scene = readAs(request, *format);
   if (!scene) return scene;
   scene::Scene tidied = tidy(std::move(*scene));
+  if (request.hints.crs && !isProjectedHere(tidied))
+    tidied.crs = *request.hints.crs == "local" ? "" : geo::shortName(*request.hints.crs);
+  if (auto fine = checkLengths(tidied); !fine) return tl::unexpected(fine.error());
   if (!isDouble(*format)) warnOfCoarseness(tidied);
   return tidied;
 }

@@ -1,19 +1,18 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
 
 #include "umbrage/base/error.hpp"
 #include "umbrage/io/detail/format.hpp"
+#include "umbrage/io/detail/hints.hpp"
 #include "umbrage/scene/scene.hpp"
 
-// The inside of the program umbrage-reader. Only this folder sees assimp, tinygltf, Coin, GEOS and the JSON library.
+// The inside of the program umbrage-reader. Only this folder sees assimp, tinygltf, Coin, GEOS, PROJ and the JSON library.
 namespace umbrage::io::reader {
 
 struct Request {
   std::filesystem::path file;
-  std::optional<std::string> lod;
+  detail::Hints hints;
 };
 
 /// The scene of any readable file, tidied (see tidy.hpp).
@@ -25,5 +24,6 @@ struct Request {
 [[nodiscard]] Result<scene::Scene> readInventor(const Request& request);
 [[nodiscard]] Result<scene::Scene> readCityJson(const Request& request);
 [[nodiscard]] Result<scene::Scene> readCityJsonSeq(const Request& request);
+[[nodiscard]] Result<scene::Scene> readGeoJson(const Request& request);
 
 }  // namespace umbrage::io::reader

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace umbrage::io::detail {
+
+/// What the caller knows about the inside of a file, as it is told to the reader process.
+struct Hints {
+  std::optional<std::string> lod;
+  std::optional<std::string> crs;
+  std::optional<std::string> heightProperty;
+  std::optional<double> defaultHeight;
+  double floorHeight = 3.0;
+};
+
+/// As "key=value" words, and back. Words that are not known are passed over; a number that is none is left at its default.
+[[nodiscard]] std::vector<std::string> wordsOf(const Hints& hints);
+[[nodiscard]] Hints hintsOf(std::span<const std::string> words);
+
+}  // namespace umbrage::io::detail
