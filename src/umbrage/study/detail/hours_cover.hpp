@@ -1,0 +1,408 @@
+// The traversal, over a kind of lanes. Included within the namespace of that kind (wide or plain), so that files compiled for
+// different processors share no function.
+//
+// Frame: SunLeg's. A box or an edge is seen from the point; the sun moves on F = s (y - height(h) w) = 0, where y is the way to the
+// south pole, w the distance from the axis and s the sign that makes F concave. "Hours" are pseudo-angles throughout.
+
+inline int lowestBit(std::uint32_t bits) { return __builtin_ctz(bits); }
+
+// ---- coverage
+
+inline bool isCovered(const Coverage& c, float from, float to) {
+  const Lanes x(from), y(to);
+  std::uint32_t found = 0;
+  for (int i = 0; i < c.count; i += 8) found |= bits((load(c.from + i) <= x) & (load(c.to + i) >= y));
+  return found != 0;
+}
+
+inline bool isFull(const Coverage& c, float first, float last) {
+  return c.count == 1 && c.from[0] <= first + 1e-6f && c.to[0] >= last - 1e-6f;
+}
+
+// The bins that lie in a stretch, up to a ten thousandth.
+inline void fillBins(Coverage& c, float from, float to) {
+  const float a = (from - c.first) * c.binsPerUnit - 1e-4f, b = (to - c.first) * c.binsPerUnit + 1e-4f;
+  int i = static_cast<int>(a), k = static_cast<int>(b);
+  if (static_cast<float>(i) < a) ++i;
+  if (i < 0) i = 0;
+  if (k > 64) k = 64;
+  if (k > i) c.bins |= (~std::uint64_t{0} >> (64 - (k - i))) << i;
+}
+
+inline void addCovered(Coverage& c, float from, float to, void (*grow)(Coverage&)) {
+  const Lanes low(from - kJoin), high(to + kJoin);
+  int i = 0, k = 0;
+  std::uint32_t known = 0;
+  for (int n = 0; n < c.count; n += 8) {
+    const Lanes a = load(c.from + n), b = load(c.to + n);
+    i += __builtin_popcount(bits(b < low));
+    k += __builtin_popcount(bits(a <= high));
+    known |= bits((a <= Lanes(from)) & (b >= Lanes(to)));
+  }
+  if (known != 0) return;
+  if (k > i) {  // it joins stretches i to k - 1
+    if (c.from[i] < from) from = c.from[i];
+    if (c.to[k - 1] > to) to = c.to[k - 1];
+  }
+  const int by = i - k + 1;
+  if (c.count < 8) {  // all in one register, so that no load waits for small stores
+    store(c.from, replaced(load(c.from), i, by, from, kNever));
+    store(c.to, replaced(load(c.to), i, by, to, kNever));
+  } else {
+    if (by == 1 && c.count + 1 > c.capacity) grow(c);
+    const int tail = c.count - (k > i ? k : i);
+    const int source = k > i ? k : i;
+    __builtin_memmove(c.from + i + 1, c.from + source, static_cast<std::size_t>(tail) * sizeof(float));
+    __builtin_memmove(c.to + i + 1, c.to + source, static_cast<std::size_t>(tail) * sizeof(float));
+    c.from[i] = from, c.to[i] = to;
+  }
+  c.count += by;
+  if (c.count >= 8 || by < 0)
+    for (int n = c.count; n < c.count + 8 - (by < 0 ? by : 0); ++n) c.from[n] = c.to[n] = kNever;
+  fillBins(c, from, to);
+}
+
+// ---- leaves
+
+struct LeafPiece {
+  float from, to;  // hours that the leaf is asked for
+  Lanes first, last;
+  const ArcDirections* arc;
+};
+
+inline Lanes pseudo(Lanes x, Lanes y) { return flipped(Lanes(1.0f) - x / (magnitude(x) + magnitude(y)), y); }
+
+struct Three {
+  Lanes x, y, z;
+};
+inline Lanes dot(const Three& a, const float* b) {
+  return fma(a.x, Lanes(b[0]), fma(a.y, Lanes(b[1]), a.z * Lanes(b[2])));
+}
+
+// The stretches within [first, last] that satisfy four constraints, each a plain or a wrapped stretch.
+inline void addPieces(const float* from, const float* to, float first, float last, Coverage& c,
+                      void (*grow)(Coverage&)) {
+  float piece[8][2] = {{first, last}};
+  int count = 1;
+  for (int k = 0; k < 4; ++k) {
+    float next[8][2];
+    int n = 0;
+    const auto keep = [&](float a, float b) {
+      if (a < b && n < 8) next[n][0] = a, next[n][1] = b, ++n;
+    };
+    for (int i = 0; i < count; ++i) {
+      const float a = piece[i][0], b = piece[i][1];
+      if (from[k] <= to[k]) {
+        keep(a > from[k] ? a : from[k], b < to[k] ? b : to[k]);
+      } else {
+        keep(a, b < to[k] ? b : to[k]);
+        keep(a > from[k] ? a : from[k], b);
+      }
+    }
+    count = n;
+    __builtin_memcpy(piece, next, sizeof piece);
+  }
+  for (int i = 0; i < count; ++i) addCovered(c, piece[i][0], piece[i][1], grow);
+}
+
+// Two quads at once, an edge per lane: lanes 0-3 are quad `a`, 4-7 quad `b`. The sides' signs say from which side each is seen.
+// Bits of halves: 1 and 2.
+inline void addTwo(const CoverJob& job, const GroupPoint& point, const LeafPiece& piece, std::uint32_t a,
+                   std::uint32_t b, bool two, Lanes side, Coverage& covered) {
+  const TreeQuad &p = job.quads[a], &q = job.quads[b];
+  const auto seen = [&](const float* u, const float* v, int axis) {
+    return (load(u, v) - Lanes(point.high[axis])) - Lanes(point.low[axis]);
+  };
+  const Three corner{seen(p.x, q.x, 0), seen(p.y, q.y, 1), seen(p.z, q.z, 2)};
+  const Three next{following(corner.x), following(corner.y), following(corner.z)};
+  // (a + b) x (b - a): with the ends exchanged it is the same with the other sign, bit by bit, so that neighbours share a moment.
+  const Three sum{corner.x + next.x, corner.y + next.y, corner.z + next.z};
+  const Three edge{next.x - corner.x, next.y - corner.y, next.z - corner.z};
+  const Three plane{flipped(fms(sum.y, edge.z, sum.z * edge.y), side),
+                    flipped(fms(sum.z, edge.x, sum.x * edge.z), side),
+                    flipped(fms(sum.x, edge.y, sum.y * edge.x), side)};
+  const Lanes al = dot(plane, piece.arc->rise), be = dot(plane, piece.arc->cosine), ga = dot(plane, piece.arc->sine);
+  const Lanes zero(0.0f);
+  const Lanes d2 = fnma(al, al, fma(be, be, ga * ga));
+  const Lanes size = fma(plane.x, plane.x, fma(plane.y, plane.y, plane.z * plane.z));
+  const Mask crosses = d2 > zero;
+  const Mask raking = magnitude(d2) < Lanes(0.01f) * size;  // the sun meets this edge at less than 0.1 radians
+  const std::uint32_t never = bits(without(raking, without(crosses, al < zero)));
+  const std::uint32_t wanted = (two ? 0xffu : 0x0fu);
+  std::uint32_t alive = ((never & 0x0fu) != 0 ? 0u : 0x0fu) | ((never & 0xf0u) != 0 ? 0u : 0xf0u);
+  alive &= wanted;
+  if (alive == 0) return;
+  const Lanes d = root(larger(d2, zero));
+  const Lanes ab = -al * be, ag = -al * ga;
+  const Mask plainEdge = without(raking, crosses);
+  Lanes from = select(plainEdge, pseudo(fma(ga, d, ab), fnma(be, d, ag)), Lanes(-4.0f));
+  Lanes to = select(plainEdge, pseudo(fnma(ga, d, ab), fma(be, d, ag)), Lanes(4.0f));
+
+  for (int pass = 0;; ++pass) {
+    // A wrapped stretch whose gap reaches beyond one end of the hours asked for is an ordinary one there.
+    const Mask wrapped = from > to;
+    const Mask early = wrapped & (from >= piece.last), late = wrapped & (to <= piece.first);
+    const std::uint32_t none = bits(early & late);
+    const Lanes f = select(late, from, select(early, Lanes(-4.0f), from));
+    const Lanes t = select(early, to, select(late, Lanes(4.0f), to));
+    const std::uint32_t still = alive & ~((none & 0x0fu) != 0 ? 0x0fu : 0u) & ~((none & 0xf0u) != 0 ? 0xf0u : 0u);
+    const Mask split = f > t;
+    const Lanes low = largestOfFour(larger(select(split, piece.first, f), piece.first));
+    const Lanes high = smallestOfFour(smaller(select(split, piece.last, t), piece.last));
+    std::uint32_t found = bits(low < high) & still;
+    if (found == 0) return;
+    float l[2] = {lowHalf(low), highHalf(low)}, h[2] = {lowHalf(high), highHalf(high)};
+    if ((found & 0x0fu) != 0 && isCovered(covered, l[0], h[0])) found &= ~0x0fu;
+    if ((found & 0xf0u) != 0 && isCovered(covered, l[1], h[1])) found &= ~0xf0u;
+    if (found == 0) return;
+    const std::uint32_t doubtful = pass == 0 ? bits(raking) & found : 0u;
+    if (doubtful != 0) {
+      alignas(32) float fa[8], ta[8];
+      store(fa, from), store(ta, to);
+      alive = found;
+      if ((doubtful & 0x0fu) != 0 && !job.refine(job.context, point.index, a, doubtful & 0x0fu, fa, ta))
+        alive &= ~0x0fu;
+      if ((doubtful & 0xf0u) != 0 && !job.refine(job.context, point.index, b, doubtful >> 4, fa + 4, ta + 4))
+        alive &= ~0xf0u;
+      if (alive == 0) return;
+      from = load(fa), to = load(ta);
+      continue;
+    }
+    const std::uint32_t cut = bits(split) & found;
+    if (cut != 0) {
+      alignas(32) float fa[8], ta[8];
+      store(fa, f), store(ta, t);
+      for (int half = 0; half < 2; ++half)
+        if ((cut >> (4 * half) & 0x0fu) != 0) {
+          addPieces(fa + 4 * half, ta + 4 * half, piece.from, piece.to, covered, job.grow);
+          found &= ~(0x0fu << (4 * half));
+        }
+    }
+    if ((found & 0x11u) == 0x11u && l[0] <= h[1] + kJoin && l[1] <= h[0] + kJoin) {
+      addCovered(covered, l[0] < l[1] ? l[0] : l[1], h[0] > h[1] ? h[0] : h[1], job.grow);
+      return;
+    }
+    if ((found & 0x01u) != 0) addCovered(covered, l[0], h[0], job.grow);
+    if ((found & 0x10u) != 0) addCovered(covered, l[1], h[1], job.grow);
+    return;
+  }
+}
+
+// Lanes whose solid is one of those around the group.
+inline std::uint32_t lanesWithin(const CoverJob& job, const TreeLeaf& leaf) {
+  std::uint32_t lanes = 0;
+  for (std::int32_t i = 0; i < job.withinCount; ++i)
+    for (int k = 0; k < 8; ++k) lanes |= static_cast<std::uint32_t>(leaf.solid[k] == job.within[i]) << k;
+  return lanes;
+}
+
+inline void addLeaf(const CoverJob& job, const TreeLeaf& leaf, std::uint32_t bothSides, const LeafPiece& piece,
+                    const GroupPoint& point, Coverage& covered) {
+  const auto seen = [&](const float* u, int axis) {
+    return (load(u) - Lanes(point.high[axis])) - Lanes(point.low[axis]);
+  };
+  const Lanes nx = load(leaf.nx), ny = load(leaf.ny), nz = load(leaf.nz);
+  const Lanes depth = fma(seen(leaf.x, 0), nx, fma(seen(leaf.y, 1), ny, seen(leaf.z, 2) * nz));
+  const std::uint32_t front = bits(depth < Lanes(0.0f));
+  std::uint32_t left = (front | bothSides) & leaf.used;
+  std::uint32_t near = bits(magnitude(depth) <= Lanes(job.contact)) & leaf.used;
+  for (; near != 0; near &= near - 1) {
+    const int i = lowestBit(near);
+    if (job.touch(job.context, point.index, leaf.quads + static_cast<std::uint32_t>(i), covered)) left &= ~(1u << i);
+  }
+  while (left != 0) {
+    const int i = lowestBit(left);
+    left &= left - 1;
+    int k = i;
+    const bool two = left != 0;
+    if (two) k = lowestBit(left), left &= left - 1;
+    const float si = (front >> i & 1u) != 0 ? -1.0f : 1.0f, sk = (front >> k & 1u) != 0 ? -1.0f : 1.0f;
+    addTwo(job, point, piece, leaf.quads + static_cast<std::uint32_t>(i), leaf.quads + static_cast<std::uint32_t>(k),
+           two, halves(si, sk), covered);
+  }
+}
+
+// The arc that is right from `from` on for longest, and how far.
+inline const ArcDirections* arcFrom(const CoverJob& job, float from, float to) {
+  const float scale = 64.0f / (job.last - job.first);
+  const auto index = [&](float p) {
+    const int i = static_cast<int>((p - job.first) * scale);
+    return i < 0 ? 0 : i > 63 ? 63 : i;
+  };
+  const ArcDirections* best = job.arcs + index(0.5f * (from + to));
+  if (best->low <= from && best->high >= to) return best;
+  int i = index(from);
+  while (i < 63 && job.arcs[i + 1].low <= from) ++i;
+  return job.arcs + i;
+}
+
+// ---- nodes
+
+// Of a group's state: bins that all its points have covered.
+inline std::uint64_t commonBins(const CoverJob& job, std::uint32_t live) {
+  std::uint64_t all = ~std::uint64_t{0};
+  for (; live != 0; live &= live - 1) all &= job.covered[lowestBit(live)].bins;
+  return all;
+}
+
+struct Entry {
+  std::int32_t child;
+  float from, to, distance;
+};
+
+struct NodeConstants {
+  float sign, slope;          // of `rise`: its sign and magnitude
+  float turnFirst, turnWest;  // sign * cosine, sign * sine
+  float sinAbs, cosAbs;
+  bool facing;
+  float radius;  // of the group, seen along the axis
+  float scale;   // bins per unit
+};
+
+inline NodeConstants constantsOf(const CoverJob& job) {
+  NodeConstants k{};
+  k.sign = job.rise < 0.0f ? -1.0f : 1.0f;
+  k.slope = k.sign * job.rise;
+  k.turnFirst = k.sign * job.cosine, k.turnWest = k.sign * job.sine;
+  k.sinAbs = __builtin_fabsf(job.sinLatitude), k.cosAbs = __builtin_fabsf(job.cosLatitude);
+  k.facing = job.slab[0] + job.slab[1] + job.slab[2] > 0.0f;
+  const float tall = k.sinAbs * job.extent[1] + k.cosAbs * job.extent[2];
+  k.radius = __builtin_sqrtf(tall * tall + job.extent[0] * job.extent[0]);
+  k.scale = 64.0f / (job.last - job.first);
+  return k;
+}
+
+// Puts the children that may hide the sun at hours not yet covered onto the stack, the nearest on top. Returns the new top.
+inline int openNode(const CoverJob& job, const NodeConstants& k, const TreeNode& node, std::uint64_t covered,
+                    Entry* stack, int top) {
+  const Lanes zero(0.0f), first = load(node.first) - Lanes(job.middle[0]),
+                          west = load(node.west) - Lanes(job.middle[1]),
+                          south = load(node.south) - Lanes(job.middle[2]);
+  const Lanes ex = load(node.east) + Lanes(job.extent[0]), ey = load(node.north) + Lanes(job.extent[1]),
+              ez = load(node.up) + Lanes(job.extent[2]), flat = load(node.flat) + Lanes(k.radius);
+  const Lanes sinA(k.sinAbs), cosA(k.cosAbs), slope(k.slope);
+  const Lanes w2 = fma(first, first, fma(west, west, Lanes(1e-12f)));
+  const Lanes iw = inverseRoot(w2), w = w2 * iw, wb = first * iw, wc = west * iw;
+  // How far above the cone of the sun's way the middle lies.
+  const Lanes f = fma(south, Lanes(k.sign), -fma(first, Lanes(k.turnFirst), fma(west, Lanes(k.turnWest), slope * w)));
+  const Lanes slack = fma(Lanes(job.error), w + flat, Lanes(1e-4f));
+  const Lanes reach = w - flat;
+  const Mask outside = reach > Lanes(1e-3f);
+  const Lanes bend = (flat * flat) * (Lanes(0.501f * k.slope) * roughInverse(larger(reach, Lanes(1e-3f))));
+  // The gradient of f along first and west; along south it is the sign.
+  const Lanes gb = -fma(slope, wb, Lanes(k.turnFirst)), gc = -fma(slope, wc, Lanes(k.turnWest));
+  const Lanes sl(job.sinLatitude), cl(job.cosLatitude), ssl(k.sign * job.sinLatitude), scl(k.sign * job.cosLatitude);
+  const Lanes gx = -gc, gy = -fma(sl, gb, scl), gz = fms(cl, gb, ssl);
+  const Lanes spread = fma(magnitude(gx), ex, fma(magnitude(gy), ey, fma(magnitude(gz), ez, slack)));
+  const Lanes loose =
+      fma(cosA, ey,
+          fma(sinA, ez, fma(slope + Lanes(__builtin_fabsf(job.cosine) + __builtin_fabsf(job.sine)), flat, slack)));
+  Mask ok = (magnitude(f) <= loose) & (f + spread >= zero);
+  ok = ok & ((f <= spread + bend) | without(outside, ok));
+  // Above the horizon, and before the plane that the points face from.
+  ok = ok & (fma(first, cl, fnma(south, sl, ez)) > zero);
+  if (k.facing) {
+    const Lanes ahead = fma(first, Lanes(job.normal[0]), fma(west, Lanes(job.normal[1]), south * Lanes(job.normal[2])));
+    ok = ok & (fma(ex, Lanes(job.slab[0]), fma(ey, Lanes(job.slab[1]), fma(ez, Lanes(job.slab[2]), ahead))) > zero);
+  }
+  std::uint32_t left = bits(ok);
+  if (left == 0) return top;
+  // Which hours: the box reaches rt to the sides and rr towards and away from the axis; of it only what lies near the cone counts.
+  const Lanes along = fma(sinA, ey, cosA * ez);
+  const Lanes rr = fma(magnitude(wc), ex, magnitude(wb) * along),
+              rt = fma(magnitude(wb), ex, magnitude(wc) * along) * Lanes(1.00001f);
+  const Lanes near = w - rr, far = w + rr;
+  const Mask around = near <= Lanes(1e-3f);
+  Lanes tl = -rt, th = rt;
+  {
+    // t = L g + (t - L g), where g over the box is known to be -f to the slack and the bend, and L leaves out the vertical.
+    const Lanes tx = -wb, ty = wc * sl, tz = -wc * cl;
+    const Lanes lambda = tz * gz * inverse(fma(gz, gz, Lanes(1e-4f)));
+    const Lanes rest = fma(magnitude(fnma(lambda, gx, tx)), ex,
+                           fma(magnitude(fnma(lambda, gy, ty)), ey, magnitude(fnma(lambda, gz, tz)) * ez));
+    const Lanes wide = fma(fma(magnitude(lambda), bend + slack, rest), Lanes(1.0001f), Lanes(1e-4f));
+    const Lanes centre = -lambda * f;
+    tl = select(outside, larger(tl, centre - wide), tl);
+    th = select(outside, smaller(th, centre + wide), th);
+    left &= bits(around | (tl <= th));
+    if (left == 0) return top;
+  }
+  const Lanes dl = selectNegative(tl, near, far), dh = selectNegative(th, far, near);
+  const Lanes ax = fms(wb, dl, wc * tl), ay = fma(wc, dl, wb * tl), bx = fms(wb, dh, wc * th),
+              by = fma(wc, dh, wb * th);
+  const Lanes one(1.0f), margin(2e-6f), begin(job.first), end(job.last);
+  Lanes from = flipped(one - ax * inverse(magnitude(ax) + magnitude(ay)), ay) - margin;
+  Lanes to = flipped(one - bx * inverse(magnitude(bx) + magnitude(by)), by) + margin;
+  const Mask wrapped = from > to;
+  const Mask beforeEnd = from <= end, afterBegin = to >= begin;
+  const std::uint32_t meets =
+      bits(around) | (bits(wrapped) & bits(beforeEnd | afterBegin)) | bits(without(wrapped, beforeEnd & afterBegin));
+  left &= meets;
+  const Mask all = around | wrapped;
+  from = larger(select(all, begin, from), begin), to = smaller(select(all, end, to), end);
+  if (left == 0) return top;
+  const Lanes scale(k.scale);
+  left &= ~allIn((from - begin) * scale, (to - begin) * scale, covered);
+  if (left == 0) return top;
+  alignas(32) float a[8], b[8], distance[8];
+  store(a, from), store(b, to), store(distance, fma(south, south, w2));
+  const int bottom = top;
+  for (; left != 0; left &= left - 1) {
+    const int i = lowestBit(left);
+    const Entry entry{node.child[i], a[i], b[i], distance[i]};
+    const char* ahead = entry.child < 0 ? reinterpret_cast<const char*>(job.leaves + ~entry.child)
+                                        : reinterpret_cast<const char*>(job.nodes + entry.child);
+    for (int line = 0; line < 4; ++line) __builtin_prefetch(ahead + 64 * line);
+    int at = top++;
+    for (; at > bottom && stack[at - 1].distance < entry.distance; --at) stack[at] = stack[at - 1];
+    stack[at] = entry;
+  }
+  return top;
+}
+
+inline void openLeaf(CoverJob& job, const Entry& entry, std::uint32_t& live) {
+  const TreeLeaf& leaf = job.leaves[~entry.child];
+  const std::uint32_t bothSides = leaf.open | (job.withinCount > 0 ? lanesWithin(job, leaf) : 0u);
+  for (float from = entry.from; from < entry.to;) {
+    const ArcDirections* arc = arcFrom(job, from, entry.to);
+    const float to = arc->high < entry.to && arc->high > from ? arc->high : entry.to;
+    const LeafPiece piece{from, to, Lanes(from), Lanes(to), arc};
+    for (std::uint32_t left = live; left != 0; left &= left - 1) {
+      const int k = lowestBit(left);
+      if (!isCovered(job.covered[k], from, to)) addLeaf(job, leaf, bothSides, piece, job.points[k], job.covered[k]);
+    }
+    from = to;
+  }
+  for (std::uint32_t left = live; left != 0; left &= left - 1) {
+    const int k = lowestBit(left);
+    if (isFull(job.covered[k], job.first, job.last)) live &= ~(1u << k);
+  }
+}
+
+inline void cover(CoverJob& job) {
+  const NodeConstants constants = constantsOf(job);
+  Entry stack[512];
+  int top = 0, last = 0;
+  stack[top++] = {job.root, job.first, job.last, 0.0f};
+  std::uint32_t live = 0;
+  for (int k = 0; k < job.count; ++k)
+    if (!isFull(job.covered[k], job.first, job.last)) live |= 1u << k;
+  std::uint64_t bins = commonBins(job, live);
+  while (top > 0 && live != 0) {
+    const Entry entry = stack[--top];
+    if ((live >> last & 1u) == 0 || isCovered(job.covered[last], entry.from, entry.to)) {
+      bool open = false;  // for any of the others?
+      for (std::uint32_t left = live; left != 0 && !open; left &= left - 1) {
+        const int k = lowestBit(left);
+        if (!isCovered(job.covered[k], entry.from, entry.to)) open = true, last = k;
+      }
+      if (!open) continue;
+    }
+    if (entry.child >= 0) {
+      top = openNode(job, constants, job.nodes[entry.child], bins, stack, top);
+    } else {
+      openLeaf(job, entry, live);
+      bins = commonBins(job, live);
+    }
+  }
+}

@@ -1,0 +1,146 @@
+#include "umbrage/study/detail/hours_groups.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "umbrage/study/detail/hours_tree.hpp"
+
+namespace umbrage::study::detail {
+namespace {
+
+// Every third bit, for 21 bits.
+std::uint64_t spread(std::uint64_t x) {
+  x &= 0x1fffff;
+  x = (x | x << 32) & 0x1f00000000ffffull;
+  x = (x | x << 16) & 0x1f0000ff0000ffull;
+  x = (x | x << 8) & 0x100f00f00f00f00full;
+  x = (x | x << 4) & 0x10c30c30c30c30c3ull;
+  return (x | x << 2) & 0x1249249249249249ull;
+}
+
+std::uint64_t zOrder(const Vec3& p, const Vec3& low, double cell) {
+  std::uint64_t code = 0;
+  for (int k = 0; k < 3; ++k)
+    code |= spread(static_cast<std::uint64_t>(std::clamp((p[k] - low[k]) / cell, 0.0, 2097151.0))) << k;
+  return code;
+}
+
+std::uint64_t normalKey(const Vec3& n) {
+  std::uint64_t key = 0;
+  for (int k = 0; k < 3; ++k) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &n[k], sizeof bits);
+    key = (key ^ bits) * 0x9e3779b97f4a7c15ull;
+    key ^= key >> 29;
+  }
+  return key;
+}
+
+struct Key {
+  std::uint64_t place, normal, finer;
+  std::uint32_t receiver;
+  bool operator<(const Key& o) const {
+    if (place != o.place) return place < o.place;
+    if (normal != o.normal) return normal < o.normal;
+    return finer != o.finer ? finer < o.finer : receiver < o.receiver;
+  }
+};
+
+}  // namespace
+
+Groups makeGroups(std::span<const Receiver> receivers, double size) {
+  Box3 box;
+  for (const Receiver& r : receivers) box.add(r.position);
+  const Vec3 extent = box.size();
+  const double widest = std::max({extent.x, extent.y, extent.z, 1e-300});
+  const double coarse = std::max(size > 0.0 ? 2.0 * size : widest, widest / 2097151.0);
+  const double fine = std::max(coarse / 64.0, widest / 2097151.0);
+  std::vector<Key> keys(receivers.size());
+  for (std::uint32_t i = 0; i < receivers.size(); ++i) {
+    const Receiver& r = receivers[i];
+    keys[i] = {zOrder(r.position, box.min, coarse), normalKey(r.normal), zOrder(r.position, box.min, fine), i};
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::uint32_t> order(keys.size()), begin{0};
+  Box3 group;
+  for (std::uint32_t i = 0; i < keys.size(); ++i) {
+    order[i] = keys[i].receiver;
+    const Receiver& r = receivers[order[i]];
+    Box3 grown = group;
+    grown.add(r.position);
+    const Vec3 s = grown.size();
+    const bool fits =
+        i == begin.back() || (i - begin.back() < std::uint32_t(kGroup) && std::max({s.x, s.y, s.z}) <= size &&
+                              receivers[order[begin.back()]].normal == r.normal);
+    if (!fits) {
+      begin.push_back(i);
+      grown = {};
+      grown.add(r.position);
+    }
+    group = grown;
+  }
+  if (!keys.empty()) begin.push_back(static_cast<std::uint32_t>(keys.size()));
+  return {std::move(order), std::move(begin)};
+}
+
+SolidBoxes::SolidBoxes(std::vector<Box3> boxes) : boxes_(std::move(boxes)) {
+  if (boxes_.empty()) return;
+  for (const Box3& b : boxes_) all_.add(b);
+  across_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::cbrt(double(boxes_.size())) * 4.0), 1, 128);
+  constexpr std::size_t kLarge = 64;
+  std::vector<std::vector<std::int32_t>> cells(across_ * across_ * across_);
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    std::size_t low[3], high[3], count = 1;
+    for (int k = 0; k < 3; ++k) {
+      low[k] = cellOf(boxes_[i].min[k], k), high[k] = cellOf(boxes_[i].max[k], k);
+      count *= high[k] - low[k] + 1;
+    }
+    if (count > kLarge) {
+      large_.push_back(static_cast<std::int32_t>(i));
+      continue;
+    }
+    for (std::size_t x = low[0]; x <= high[0]; ++x)
+      for (std::size_t y = low[1]; y <= high[1]; ++y)
+        for (std::size_t z = low[2]; z <= high[2]; ++z)
+          cells[(x * across_ + y) * across_ + z].push_back(static_cast<std::int32_t>(i));
+  }
+  cellBegin_.push_back(0);
+  for (const auto& cell : cells) {
+    inCells_.insert(inCells_.end(), cell.begin(), cell.end());
+    cellBegin_.push_back(static_cast<std::uint32_t>(inCells_.size()));
+  }
+}
+
+std::size_t SolidBoxes::cellOf(double v, int axis) const {
+  const double width = all_.max[axis] - all_.min[axis];
+  if (!(width > 0.0)) return 0;
+  return static_cast<std::size_t>(
+      std::clamp((v - all_.min[axis]) / width * double(across_), 0.0, double(across_) - 1.0));
+}
+
+bool SolidBoxes::meets(std::int32_t box, const Vec3& at, double radius) const {
+  const Box3& b = boxes_[static_cast<std::size_t>(box)];
+  for (int k = 0; k < 3; ++k)
+    if (at[k] < b.min[k] - radius || at[k] > b.max[k] + radius) return false;
+  return true;
+}
+
+void SolidBoxes::find(const Vec3& at, double radius, std::vector<std::int32_t>& out) const {
+  if (boxes_.empty()) return;
+  for (const std::int32_t i : large_)
+    if (meets(i, at, radius)) out.push_back(i);
+  std::size_t low[3], high[3];
+  for (int k = 0; k < 3; ++k) low[k] = cellOf(at[k] - radius, k), high[k] = cellOf(at[k] + radius, k);
+  for (std::size_t x = low[0]; x <= high[0]; ++x)
+    for (std::size_t y = low[1]; y <= high[1]; ++y)
+      for (std::size_t z = low[2]; z <= high[2]; ++z) {
+        const std::size_t cell = (x * across_ + y) * across_ + z;
+        for (std::uint32_t i = cellBegin_[cell]; i < cellBegin_[cell + 1]; ++i)
+          if (meets(inCells_[i], at, radius) && std::find(out.begin(), out.end(), inCells_[i]) == out.end())
+            out.push_back(inCells_[i]);
+      }
+}
+
+}  // namespace umbrage::study::detail

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace umbrage::study::detail {
+
+/// A measure of an angle without trigonometry: monotone in it, -2 at -180 degrees, 0 at 0, 2 at 180.
+[[nodiscard]] inline double pseudoAngle(double x, double y) {
+  const double p = 1.0 - x / (std::abs(x) + std::abs(y));
+  return y < 0.0 ? -p : p;
+}
+[[nodiscard]] inline double pseudoAngle(double angle) { return pseudoAngle(std::cos(angle), std::sin(angle)); }
+/// The angle of a pseudo-angle in [-2, 2].
+[[nodiscard]] inline double angleOf(double p) {
+  const double x = 1.0 - std::abs(p), y = 1.0 - std::abs(x);
+  return std::atan2(p < 0.0 ? -y : y, x);
+}
+
+/// The sun's height over the equator as rise + cosine cos h + sine sin h: a plane section of the sky's cone, right for about
+/// [low, high] of the hour angle. In pseudo-angles.
+struct SunArc {
+  double rise, cosine, sine;
+  double low, high;
+};
+
+/// One passage of the sun over the sky, in a right-handed frame fixed to the Earth: the first axis to the equator's highest point,
+/// the second west, the third to the south pole. The direction to the sun is (cos h, sin h, height(h)) up to its length; h, its
+/// angle about the axis, only grows.
+struct SunLeg {
+  static constexpr int kArcs = 64;
+  double firstAngle, lastAngle;  ///< h in [-pi, pi]
+  double firstTime, lastTime;    ///< seconds from the start of the course
+  double first, last;            ///< pseudo-angles of the ends
+  SunArc whole;                  ///< for all of the leg,
+  double wholeError;             ///< the height no farther off than this
+  std::array<SunArc, kArcs>
+      arcs;  ///< around the middles of equal parts of [first, last]; off by no more than kArcError
+
+  /// The largest error of an arc, in radians; the sun takes 0.014 s for it.
+  static constexpr double kArcError = 1e-6;
+
+  struct Knot {
+    double height, heightSlope, time, timeSlope;
+  };
+  std::vector<Knot> knots;  ///< at equal steps of h
+  double knotStart, knotStep;
+
+  [[nodiscard]] double height(double h) const;
+  [[nodiscard]] double heightSlope(double h) const;
+  [[nodiscard]] double time(double h) const;
+  [[nodiscard]] const SunArc& arcAt(double pseudo) const {
+    const int i = static_cast<int>((pseudo - first) / (last - first) * kArcs);
+    return arcs[static_cast<std::size_t>(i < 0 ? 0 : i >= kArcs ? kArcs - 1 : i)];
+  }
+};
+
+}  // namespace umbrage::study::detail

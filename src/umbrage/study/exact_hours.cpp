@@ -1,0 +1,457 @@
+#include "umbrage/study/exact_hours.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <thread>
+
+#include "umbrage/base/check.hpp"
+#include "umbrage/study/detail/hours_build.hpp"
+#include "umbrage/study/detail/hours_groups.hpp"
+#include "umbrage/study/detail/hours_solve.hpp"
+#include "umbrage/study/detail/sun_leg.hpp"
+
+namespace umbrage::study {
+
+using detail::ArcDirections;
+using detail::Coverage;
+using detail::CoverJob;
+using detail::SunLeg;
+using std::chrono::milliseconds;
+
+struct ExactHours::Impl {
+  detail::SkyFrame frame;
+  sun::Place place;
+  Vec3 origin{0.0};
+  detail::HoursTree tree;
+  detail::SolidBoxes solids;
+  ExactHoursOptions options;
+  double contact = 0.0;
+};
+
+namespace {
+
+// Gaps of light or shade shorter than this are what rounding leaves between neighbours.
+constexpr double kShortest = 0.1;  // seconds
+
+detail::SkyFrame frameOf(const scene::Scene& scene, const sun::Place& place) {
+  detail::SkyFrame f;
+  f.east = scene::eastVector(scene.up, scene.northOffset);
+  f.north = scene::northVector(scene.up, scene.northOffset);
+  f.up = scene::upVector(scene.up);
+  f.sinLatitude = sin(place.latitude), f.cosLatitude = cos(place.latitude);
+  f.first = f.cosLatitude * f.up - f.sinLatitude * f.north;
+  f.west = -f.east;
+  f.south = -f.cosLatitude * f.north - f.sinLatitude * f.up;
+  return f;
+}
+
+bool useWide(bool asked) {
+#ifdef UMBRAGE_HOURS_WIDE
+  static const bool has = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
+  return asked && has;
+#else
+  return asked && false;
+#endif
+}
+
+// ---- a leg, made ready for the traversal
+
+struct ReadyLeg {
+  const SunLeg* leg;
+  std::array<ArcDirections, SunLeg::kArcs> arcs;
+
+  ReadyLeg(const SunLeg& l, const detail::SkyFrame& f) : leg(&l) {
+    for (std::size_t i = 0; i < arcs.size(); ++i) {
+      const detail::SunArc& a = l.arcs[i];
+      const Vec3 rise = a.rise * f.south, cosine = f.first + a.cosine * f.south, sine = f.west + a.sine * f.south;
+      for (int k = 0; k < 3; ++k)
+        arcs[i].rise[k] = float(rise[k]), arcs[i].cosine[k] = float(cosine[k]), arcs[i].sine[k] = float(sine[k]);
+      arcs[i].low = float(a.low), arcs[i].high = float(a.high);
+    }
+  }
+};
+
+// ---- coverages that grow
+
+constexpr std::int32_t kRoom = 48, kSpare = 24;
+
+struct Room {
+  std::vector<float> from, to;
+  Room() : from(kRoom + kSpare, detail::kNever), to(kRoom + kSpare, detail::kNever) {}
+};
+
+struct Rooms {
+  std::array<Room, detail::kGroup> rooms;
+};
+// The traversal knows plain data only, so a coverage finds its room by its own thread.
+thread_local Rooms* roomsOfThread = nullptr;
+
+void growCoverage(Coverage& c) {
+  for (Room& room : roomsOfThread->rooms) {
+    if (room.from.data() != c.from) continue;
+    c.capacity *= 2;
+    room.from.resize(static_cast<std::size_t>(c.capacity + kSpare), detail::kNever);
+    room.to.resize(static_cast<std::size_t>(c.capacity + kSpare), detail::kNever);
+    c.from = room.from.data(), c.to = room.to.data();
+    return;
+  }
+}
+
+Coverage emptyCoverage(Room& room, const SunLeg& leg) {
+  std::fill_n(room.from.begin(), 16, detail::kNever);
+  std::fill_n(room.to.begin(), 16, detail::kNever);
+  const auto first = float(leg.first), last = float(leg.last);
+  return {room.from.data(),
+          room.to.data(),
+          0,
+          static_cast<std::int32_t>(room.from.size()) - kSpare,
+          first,
+          64.0f / (last - first),
+          0};
+}
+
+// ---- what the traversal asks back, in double precision
+
+struct GroupContext {
+  const ExactHours::Impl& hours;
+  const SunLeg& leg;
+  const Vec3* positions;  // relative to the origin, by number in the group
+  Vec3 normal;            // unit or 0
+
+  struct Seen {
+    Vec3 corner[4];
+    Vec3 area;
+  };
+  [[nodiscard]] Seen see(std::uint32_t point, std::uint32_t quad) const {
+    const detail::TreeQuad& q = hours.tree.quads[quad];
+    Seen s;
+    for (int k = 0; k < 4; ++k) s.corner[k] = Vec3(q.x[k], q.y[k], q.z[k]) - positions[point];
+    s.area = glm::cross(s.corner[2] - s.corner[0], s.corner[3] - s.corner[0]) +
+             glm::cross(s.corner[1] - s.corner[0], s.corner[2] - s.corner[0]);
+    return s;
+  }
+
+  // The hours on the inner side of edge k; false when there are none.
+  bool edge(const Seen& s, int k, float& from, float& to) const {
+    const Vec3 &a = s.corner[k], &b = s.corner[(k + 1) & 3];
+    from = -4.0f, to = 4.0f;
+    if (a == b) return true;
+    const Vec3 plane = glm::cross(a, b) * (glm::dot(s.area, s.corner[0]) < 0.0 ? -1.0 : 1.0);
+    const detail::SideHours hoursOfEdge = detail::hoursInside(leg, hours.frame.turning(plane));
+    if (hoursOfEdge.kind == detail::SideHours::Kind::between)
+      from = float(hoursOfEdge.from), to = float(hoursOfEdge.to);
+    return hoursOfEdge.kind != detail::SideHours::Kind::never;
+  }
+};
+
+bool refineEdges(void* context, std::uint32_t point, std::uint32_t quad, std::uint32_t lanes, float* from, float* to) {
+  const auto& group = *static_cast<const GroupContext*>(context);
+  const GroupContext::Seen seen = group.see(point, quad);
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int k = std::countr_zero(lanes);
+    if (!group.edge(seen, k, from[k], to[k])) return false;
+  }
+  return true;
+}
+
+// Whether the foot of the eye on the quad's plane lies on the quad, or nearer to it than `margin`.
+bool standsOn(const GroupContext::Seen& s, const Vec3& unit, double margin) {
+  for (int k = 0; k < 4; ++k) {
+    const Vec3 &a = s.corner[k], edge = s.corner[(k + 1) & 3] - a;
+    if (glm::dot(glm::cross(edge, -a), unit) < -margin * glm::length(edge)) return false;
+  }
+  return true;
+}
+
+// The stretches in which four sides' hours overlap, by cutting out where each is not.
+void addOverlap(const float* from, const float* to, const SunLeg& leg, Coverage& covered) {
+  std::vector<std::pair<float, float>> pieces{{float(leg.first), float(leg.last)}};
+  for (int k = 0; k < 4; ++k) {
+    std::vector<std::pair<float, float>> next;
+    const auto keep = [&](float a, float b) {
+      if (a < b) next.emplace_back(a, b);
+    };
+    for (const auto& [a, b] : pieces) {
+      if (from[k] <= to[k]) {
+        keep(std::max(a, from[k]), std::min(b, to[k]));
+      } else {
+        keep(a, std::min(b, to[k]));
+        keep(std::max(a, from[k]), b);
+      }
+    }
+    pieces = std::move(next);
+  }
+  for (const auto& [a, b] : pieces) detail::addPlain(covered, a, b, growCoverage);
+}
+
+bool touchQuad(void* context, std::uint32_t point, std::uint32_t quad, Coverage& covered) {
+  const auto& group = *static_cast<const GroupContext*>(context);
+  GroupContext::Seen seen = group.see(point, quad);
+  const Vec3 unit = glm::normalize(seen.area);
+  const double depth = glm::dot(unit, seen.corner[0]);
+  if (std::abs(depth) > group.hours.contact || !standsOn(seen, unit, group.hours.contact)) return false;
+  constexpr double kUpright =
+      0.05;  // the sine between a surface and the receiver's plane below which neither side is meant
+  const double facing = glm::dot(unit, group.normal);
+  const double nothing = 1e-12 * group.hours.tree.reach;
+  if (group.normal == Vec3(0.0)) return true;
+  if (std::abs(facing) < kUpright) return std::abs(depth) <= nothing;
+  // Seen from just above the surface, on the side the receiver faces.
+  const Vec3 lift = unit * (std::copysign(nothing, facing) + depth);
+  for (Vec3& corner : seen.corner) corner -= lift;
+  float from[4], to[4];
+  for (int k = 0; k < 4; ++k)
+    if (!group.edge(seen, k, from[k], to[k])) return true;
+  addOverlap(from, to, group.leg, covered);
+  return true;
+}
+
+// ---- one group over one leg
+
+class Worker {
+ public:
+  Worker(const ExactHours::Impl& hours, std::span<const ReadyLeg> legs, const SunCourse& course)
+      : hours_(hours), legs_(legs), course_(course), wide_(useWide(hours.options.wide)) {}
+
+  // Appends what lights each of the group's receivers.
+  void light(std::span<const Receiver> receivers, std::span<const std::uint32_t> members,
+             std::array<std::vector<TimeSpan>, detail::kGroup>& lit) {
+    roomsOfThread = &rooms_;
+    Vec3 low(std::numeric_limits<double>::infinity()), high(-low);
+    CoverJob job{};
+    job.count = static_cast<std::int32_t>(members.size());
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      positions_[i] = receivers[members[i]].position - hours_.origin;
+      for (int k = 0; k < 3; ++k) {
+        job.points[i].high[k] = float(positions_[i][k]);
+        job.points[i].low[k] = float(positions_[i][k] - double(job.points[i].high[k]));
+      }
+      job.points[i].index = static_cast<std::uint32_t>(i);
+      const Vec3 p = hours_.frame.horizontal(positions_[i]);
+      low = glm::min(low, p), high = glm::max(high, p);
+      lit[i].clear();
+    }
+    const Vec3 given = receivers[members[0]].normal;
+    const double length = glm::length(given);
+    normal_ = length > 0.0 ? given / length : Vec3(0.0);
+    place(job, low, high);
+    for (const ReadyLeg& leg : legs_) pass(job, leg, lit);
+  }
+
+ private:
+  void place(CoverJob& job, const Vec3& low, const Vec3& high) {
+    const Vec3 middle = 0.5 * (low + high), far = glm::max(glm::abs(low), glm::abs(high));
+    const double margin = 0x1p-21 * std::max({far.x, far.y, far.z});  // of rounding the middle
+    const Vec3 half = 0.5 * (high - low) + Vec3(margin);
+    const detail::SkyFrame& f = hours_.frame;
+    const Vec3 turning = f.turning(middle.x * f.east + middle.y * f.north + middle.z * f.up);
+    const Vec3 normal = f.turning(normal_), slab = glm::abs(f.horizontal(normal_));
+    for (int k = 0; k < 3; ++k) {
+      job.middle[k] = float(turning[k]), job.extent[k] = float(half[k]);
+      job.normal[k] = float(normal[k]), job.slab[k] = float(slab[k]) * 1.000001f;
+    }
+    within_.clear();
+    hours_.solids.find(middle.x * f.east + middle.y * f.north + middle.z * f.up,
+                       glm::length(half) + 2.0 * hours_.contact, within_);
+    job.within = within_.data(), job.withinCount = static_cast<std::int32_t>(within_.size());
+    job.nodes = hours_.tree.nodes.data(), job.leaves = hours_.tree.leaves.data(), job.quads = hours_.tree.quads.data();
+    job.root = hours_.tree.root;
+    job.sinLatitude = float(f.sinLatitude), job.cosLatitude = float(f.cosLatitude);
+    job.contact = float(hours_.contact);
+    job.grow = growCoverage, job.refine = refineEdges, job.touch = touchQuad;
+  }
+
+  // The hours in which the sun is behind the receivers' own plane. False when that is all of them.
+  bool coverBehind(const SunLeg& leg, Coverage& covered) const {
+    if (normal_ == Vec3(0.0)) return true;
+    const detail::SideHours before = detail::hoursInside(leg, hours_.frame.turning(normal_));
+    if (before.kind == detail::SideHours::Kind::never) return false;
+    if (before.kind == detail::SideHours::Kind::always) return true;
+    const auto cover = [&](double from, double to) {
+      if (std::max(from, leg.first) < std::min(to, leg.last))
+        detail::addPlain(covered, float(std::max(from, leg.first)), float(std::min(to, leg.last)), growCoverage);
+    };
+    if (before.from <= before.to) {
+      if (before.to <= leg.first || before.from >= leg.last) return false;
+      cover(leg.first, before.from), cover(before.to, leg.last);
+    } else {
+      if (before.to <= leg.first && before.from >= leg.last) return false;
+      cover(before.to, before.from);
+    }
+    return true;
+  }
+
+  void pass(CoverJob& job, const ReadyLeg& ready, std::array<std::vector<TimeSpan>, detail::kGroup>& lit) {
+    const SunLeg& leg = *ready.leg;
+    GroupContext context{hours_, leg, positions_.data(), normal_};
+    job.rise = float(leg.whole.rise), job.cosine = float(leg.whole.cosine), job.sine = float(leg.whole.sine);
+    job.error = float(leg.wholeError);
+    job.first = float(leg.first), job.last = float(leg.last);
+    job.arcs = ready.arcs.data();
+    job.context = &context;
+    job.covered[0] = emptyCoverage(rooms_.rooms[0], leg);
+    if (!coverBehind(leg, job.covered[0])) return;
+    for (int i = 1; i < job.count; ++i) {
+      Coverage& c = job.covered[i];
+      const auto k = static_cast<std::size_t>(i);
+      c = emptyCoverage(rooms_.rooms[k], leg);
+      c.count = job.covered[0].count, c.bins = job.covered[0].bins;
+      std::copy_n(job.covered[0].from, 8, c.from);
+      std::copy_n(job.covered[0].to, 8, c.to);
+    }
+    if (!hours_.tree.nodes.empty()) wide_ ? detail::coverWide(job) : detail::coverPlain(job);
+    for (int i = 0; i < job.count; ++i) addGaps(leg, job.covered[i], lit[static_cast<std::size_t>(i)]);
+  }
+
+  void addGaps(const SunLeg& leg, const Coverage& covered, std::vector<TimeSpan>& lit) const {
+    float from = float(leg.first);
+    double fromTime = leg.firstTime;
+    const auto last = float(leg.last);
+    const auto time = [&](float p) { return leg.time(detail::angleOf(double(p))); };
+    for (std::int32_t i = 0; i <= covered.count; ++i) {
+      const bool end = i == covered.count;
+      const float to = end ? last : std::min(covered.from[i], last);
+      if (to > from) append(fromTime, end || to >= last ? leg.lastTime : time(to), lit);
+      if (end || covered.to[i] >= last) return;
+      from = std::max(from, covered.to[i]);
+      fromTime = time(from);
+    }
+  }
+
+  void append(double from, double to, std::vector<TimeSpan>& lit) const {
+    if (to - from < kShortest) return;
+    const auto instant = [&](double t) { return course_.span().from + milliseconds(std::llround(t * 1000.0)); };
+    const TimeSpan span{instant(from), instant(to)};
+    if (!lit.empty() && span.from - lit.back().to <= milliseconds(1)) {
+      lit.back().to = span.to;  // the sun passed under the pole
+      return;
+    }
+    lit.push_back(span);
+  }
+
+  const ExactHours::Impl& hours_;
+  std::span<const ReadyLeg> legs_;
+  const SunCourse& course_;
+  bool wide_;
+  Rooms rooms_;
+  std::array<Vec3, detail::kGroup> positions_;
+  std::vector<std::int32_t> within_;
+  Vec3 normal_{0.0};
+};
+
+// What each thread found, until all of it is put in order.
+struct Found {
+  std::vector<TimeSpan> lit;
+};
+struct Where {
+  std::uint32_t thread = 0, count = 0;
+  std::size_t begin = 0;
+};
+
+SunHours inOrder(const std::vector<Where>& where, const std::vector<Found>& found) {
+  std::vector<std::size_t> begin(where.size() + 1, 0);
+  for (std::size_t i = 0; i < where.size(); ++i) begin[i + 1] = begin[i] + where[i].count;
+  std::vector<TimeSpan> lit(begin.back());
+  for (std::size_t i = 0; i < where.size(); ++i)
+    std::copy_n(found[where[i].thread].lit.begin() + static_cast<std::ptrdiff_t>(where[i].begin), where[i].count,
+                lit.begin() + static_cast<std::ptrdiff_t>(begin[i]));
+  return {std::move(begin), std::move(lit)};
+}
+
+}  // namespace
+
+// ---- SunHours
+
+milliseconds SunHours::total(std::size_t receiver) const {
+  milliseconds sum{0};
+  for (const TimeSpan& s : lit(receiver)) sum += s.length();
+  return sum;
+}
+
+milliseconds SunHours::longest(std::size_t receiver) const {
+  milliseconds most{0};
+  for (const TimeSpan& s : lit(receiver)) most = std::max(most, s.length());
+  return most;
+}
+
+SunHours::Runs SunHours::runs(std::size_t receiver, milliseconds least) const {
+  Runs runs;
+  for (const TimeSpan& s : lit(receiver))
+    if (s.length() >= least) ++runs.count, runs.total += s.length();
+  return runs;
+}
+
+// ---- ExactHours
+
+ExactHours::ExactHours(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+ExactHours::ExactHours(ExactHours&&) noexcept = default;
+ExactHours& ExactHours::operator=(ExactHours&&) noexcept = default;
+ExactHours::~ExactHours() = default;
+
+Result<ExactHours> ExactHours::build(const scene::Scene& scene, const sun::Place& place,
+                                     const ExactHoursOptions& options) {
+  const scene::Surfaces surfaces = scene::flatten(scene);
+  auto impl = std::make_unique<Impl>();
+  impl->frame = frameOf(scene, place);
+  impl->place = place;
+  impl->origin = surfaces.origin;
+  impl->options = options;
+  std::vector<std::uint32_t> chosen;
+  for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t)
+    if (surfaces.casts[t] != 0 && scene.materials[surfaces.materials[t]].opacity >= options.leastOpacity)
+      chosen.push_back(t);
+  const detail::Casters casters = detail::makeCasters(surfaces, chosen);
+  impl->tree = detail::buildTree(surfaces, casters, impl->frame);
+  impl->contact = kContact * impl->tree.reach;
+  impl->solids = detail::SolidBoxes(casters.solids);
+  return ExactHours(std::move(impl));
+}
+
+Result<SunHours> ExactHours::at(std::span<const Receiver> receivers, const SunCourse& course,
+                                const ProgressSink& progress) const {
+  UMBRAGE_CHECK(course.place().latitude == impl_->place.latitude, "the course is of another place");
+  std::vector<ReadyLeg> legs;
+  for (const SunLeg& leg : course.legs()) legs.emplace_back(leg, impl_->frame);
+  const detail::Groups groups = detail::makeGroups(receivers, impl_->tree.leafSize);
+
+  constexpr std::size_t kPerTurn = 64;
+  const std::size_t turns = (groups.size() + kPerTurn - 1) / kPerTurn;
+  const unsigned wanted =
+      impl_->options.threads > 0 ? impl_->options.threads : std::max(1u, std::thread::hardware_concurrency());
+  const auto threads = static_cast<unsigned>(std::clamp<std::size_t>(turns, 1, wanted));
+  std::vector<Found> found(threads);
+  std::vector<Where> where(receivers.size());
+  std::atomic<std::size_t> next{0};
+  std::atomic<bool> stop{false};
+  const auto work = [&](std::uint32_t thread, const auto& afterTurn) {
+    Worker worker(*impl_, legs, course);
+    std::array<std::vector<TimeSpan>, detail::kGroup> lit;
+    for (std::size_t turn; !stop && (turn = next++) < turns;) {
+      for (std::size_t g = turn * kPerTurn; g < std::min(groups.size(), (turn + 1) * kPerTurn); ++g) {
+        const auto members = groups.members(g);
+        worker.light(receivers, members, lit);
+        for (std::size_t i = 0; i < members.size(); ++i) {
+          where[members[i]] = {thread, static_cast<std::uint32_t>(lit[i].size()), found[thread].lit.size()};
+          found[thread].lit.insert(found[thread].lit.end(), lit[i].begin(), lit[i].end());
+        }
+      }
+      afterTurn();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (unsigned t = 1; t < threads; ++t) others.emplace_back([&work, t] { work(t, [] {}); });
+    work(0, [&] {
+      if (!reportProgress(progress, double(std::min(next.load(), turns)) / double(std::max<std::size_t>(turns, 1)),
+                          "sun hours"))
+        stop = true;
+    });
+  }
+  if (stop) return fail(ErrorCode::cancelled, "cancelled");
+  return inOrder(where, found);
+}
+
+}  // namespace umbrage::study
