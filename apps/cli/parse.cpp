@@ -202,7 +202,7 @@ Result<double> parseUnit(std::string_view text) {
 Result<shadow::FinderKind> parseFinder(std::string_view text) {
   if (const auto kind = shadow::finderNamed(text)) return *kind;
   std::vector<std::string_view> names;
-  for (const shadow::FinderKind kind : shadow::finderKinds()) names.push_back(shadow::name(kind));
+  for (const shadow::FinderKind kind : shadow::allFinderKinds()) names.push_back(shadow::name(kind));
   return refuse(text, fmt::format("one of {}", fmt::join(names, ", ")));
 }
 

@@ -190,7 +190,7 @@ TEST_F(RenderCommand, OnlyNamedPartsCast) {
 // Which finder runs is said, and changes no byte of the mask.
 TEST_F(RenderCommand, EverySilhouetteFinderGivesTheSameMask) {
   std::string mask;
-  for (const std::string finder : {"brute_force", "brute_force_simd", "hextree", "hough", "potentially_visible", "auto"}) {
+  for (const std::string finder : {"brute_force", "brute_force_simd", "hextree", "hough", "potentially_visible", "gpu", "auto"}) {
     const Ran ran = umbrage({"render", "sample:tower", "--technique", "zpass", "--silhouette", finder, "--mask", file("mask.png"),
                              "--stats", file("s.json"), "--light", "point:20,-30,60", "--size", "200x150"});
     if (ran.code == 4) GTEST_SKIP() << "no graphics here: " << ran.err;

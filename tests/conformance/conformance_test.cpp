@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "conformance/judge.hpp"
+#include "support/asking.hpp"
 #include "support/oracle.hpp"
 #include "support/shapes.hpp"
 
@@ -42,6 +43,28 @@ TEST_P(Conformance, NoPixelDiffersFarFromATrueEdge) {
   }
 }
 
+/// Ways of the volume techniques that are asked for; no pixel may depend on them.
+std::vector<shadow::TechniqueEntry> askedFor() {
+  std::vector<shadow::TechniqueEntry> all;
+  for (const shadow::TechniqueEntry& entry : allTechniques()) {
+    if (entry.traits.name != "zfail" && entry.traits.name != "zpass") continue;
+    all.push_back(support::asking(entry, entry.traits.name + " gpu",
+                                  [](shadow::Frame& f) { f.silhouettes = shadow::FinderKind::gpu; }));
+  }
+  return all;
+}
+
+class ConformanceOfWays : public testing::TestWithParam<std::string> {};
+
+// Every other view.
+TEST_P(ConformanceOfWays, NoPixelDiffersFarFromATrueEdge) {
+  Case c = makeCase(GetParam());
+  const auto geometry = shadow::makeGeometry(c.scene);
+  std::size_t place = 0;
+  std::erase_if(c.views, [&](const NamedView&) { return place++ % 2 == 1; });
+  for (const shadow::TechniqueEntry& entry : askedFor()) judgeTechnique(entry, c, geometry);
+}
+
 // Sixteen pixels of every view and light, those on which brute force is sure.
 TEST_P(Conformance, TheTruthAgreesWithBruteForce) {
   const Case c = makeCase(GetParam());
@@ -70,6 +93,9 @@ TEST_P(Conformance, TheTruthAgreesWithBruteForce) {
   }
   EXPECT_GT(clear, 8 * c.views.size() * c.lights.size());
 }
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ConformanceOfWays, testing::ValuesIn(sceneNames()),
+                         [](const testing::TestParamInfo<std::string>& row) { return row.param; });
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Conformance, testing::ValuesIn(sceneNames()),
                          [](const testing::TestParamInfo<std::string>& row) { return row.param; });

@@ -1,12 +1,17 @@
 #include "finders/agreement.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <random>
 
 #include "umbrage/io/load.hpp"
 #include "umbrage/shadow/finders/finder.hpp"
 #include "umbrage/shadow/finders/many_lights.hpp"
 #include "umbrage/shadow/technique.hpp"
+#ifdef UMBRAGE_HAVE_RENDER
+#include "umbrage/gl/context.hpp"
+#include "umbrage/render/gpu_finder.hpp"
+#endif
 
 namespace umbrage::finders {
 namespace {
@@ -46,6 +51,22 @@ std::string compare(const shadow::CasterSet& casters, const shadow::Silhouette& 
   return {};
 }
 
+using Note = std::function<void(std::string_view who, std::size_t light, const shadow::FoundEdges& found)>;
+
+// Where there is no graphics there is no such finder.
+void askTheGraphicsCard([[maybe_unused]] const std::shared_ptr<const shadow::CasterSet>& casters,
+                        [[maybe_unused]] const std::vector<Vec4>& lights,
+                        [[maybe_unused]] const shadow::SilhouetteOptions& options, [[maybe_unused]] const Note& note) {
+#ifdef UMBRAGE_HAVE_RENDER
+  const auto context = gl::Context::createHeadless();
+  if (!context) return;
+  const gl::CurrentContext current(*context);
+  const auto finder = render::GpuFinder::make(casters);
+  if (!finder) return;
+  for (std::size_t i = 0; i < lights.size(); ++i) note("gpu", i, (*finder)->find(lights[i], options));
+#endif
+}
+
 }  // namespace
 
 Result<Verdict> judge(const std::filesystem::path& path) {
@@ -69,6 +90,7 @@ Result<Verdict> judge(const std::filesystem::path& path) {
       const auto finder = shadow::makeFinder(kind, casters);
       for (std::size_t i = 0; i < lights.size(); ++i) note(shadow::name(kind), i, finder->find(lights[i], options));
     }
+    askTheGraphicsCard(casters, lights, options, note);
     const auto many = shadow::ManyLights(casters).find(lights, options);
     for (std::size_t i = 0; i < lights.size(); ++i) note("many lights", i, many[i]);
     for (const shadow::Silhouette& s : truth) verdict.found += s.edges.size();

@@ -88,6 +88,7 @@ TEST_P(HostState, ComesBackFromEveryTechniqueInTheHostsContext) {
     demandBack([&] {
       EXPECT_TRUE(technique->prepare(geometry));
       const auto shading = technique->shade({camera(), lights});
+      ASSERT_TRUE(technique->shade({.camera = camera(), .lights = lights, .silhouettes = shadow::FinderKind::gpu}));
       ASSERT_TRUE(shading);
       // The host's state must not leak into our pictures either.
       EXPECT_EQ(shading->surface.triangle, expected->surface.triangle);

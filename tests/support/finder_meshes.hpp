@@ -87,4 +87,43 @@ inline Mesh soup(std::uint32_t triangles) {
   return m;
 }
 
+// --- lattices, where degeneracies are common ---
+
+using Random = std::mt19937;
+
+inline int between(Random& random, int low, int high) {
+  return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
+}
+
+inline Vec3f latticePoint(Random& random, int reach) {
+  const int x = between(random, -reach, reach), y = between(random, -reach, reach), z = between(random, -reach, reach);
+  return {float(x), float(y), float(z)};
+}
+
+// Few points, so that edges are shared by many triangles, triangles are doubled, flat, slivers or in one plane.
+inline Mesh latticeSoup(Random& random) {
+  Mesh m;
+  m.positions.resize(static_cast<std::size_t>(between(random, 3, 14)));
+  const int reach = between(random, 1, 5);
+  for (Vec3f& p : m.positions) p = latticePoint(random, reach);
+  const auto last = static_cast<int>(m.positions.size()) - 1;
+  m.triangles.resize(static_cast<std::size_t>(between(random, 0, 40)));
+  for (mesh::Triangle& t : m.triangles)
+    for (std::uint32_t& corner : t) corner = static_cast<std::uint32_t>(between(random, 0, last));
+  if (between(random, 0, 1) == 1) {
+    const Vec3f foot = latticePoint(random, 3), size = glm::abs(latticePoint(random, 2)) + Vec3f(1.0f);
+    addBox(m, foot, size, 0.0f);
+  }
+  return m;
+}
+
+// Points and directions; often a corner, or in the plane of faces.
+inline Vec4 latticeLight(Random& random, const Mesh& m) {
+  const int kind = between(random, 0, 3);
+  if (kind == 0) return {Vec3(m.positions[random() % m.positions.size()]), 1.0};
+  const Vec3 p = Vec3(latticePoint(random, 6)) * (kind == 1 ? 1.0 : 0.25);
+  if (kind == 3 && p != Vec3(0.0)) return {p, 0.0};
+  return {p, 1.0};
+}
+
 }  // namespace umbrage::shadow::test_meshes

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "umbrage/gl/compute.hpp"
 #include "umbrage/gl/context.hpp"
 #include "umbrage/gl/debug_log.hpp"
 #include "umbrage/gl/pass.hpp"
@@ -111,6 +112,55 @@ TEST(Pass, NeverPassingStillCountsAsFailed) {
     pass.draw(nothing, 6);
   }
   EXPECT_EQ(readStencil(scope, *target, kSize, kSize)(5, 5), 2);
+}
+
+// A shader writes which triangles are drawn and how many; nothing of it passes through the processor.
+TEST(Compute, WritesWhatIsDrawnIndirectly) {
+  NEEDS_GRAPHICS(fixture);
+  const DebugLog log;
+  const Program writer = Program::compute(R"(#version 450 core
+layout(local_size_x = 8) in;
+layout(std430, binding = 6) writeonly buffer Indices { uint index[]; };
+layout(std430, binding = 7) buffer Draws { uint count, instances, first, base, firstInstance; };
+void main() {
+  uint i = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+  if (i >= 3u) return;
+  index[first + i] = 3u + i;
+  atomicAdd(count, 1u);
+})");
+  const auto ids = Texture::make(Format::id32, kSize, kSize);
+  ASSERT_TRUE(ids);
+  const auto target = Framebuffer::make(&*ids, nullptr);
+  ASSERT_TRUE(target);
+  const Program program(kVertex, R"(#version 450 core
+layout(location = 0) out uint id;
+void main() { id = gl_FragCoord.z < 0.4 ? 1u : 2u; })");
+  Buffer indices, draws;
+  ASSERT_TRUE(indices.reserve(64));
+  ASSERT_TRUE(draws.setOne(IndirectDraw{.firstIndex = 4}));
+  const VertexArray vertices(indices);
+  HostScope scope;
+  {
+    Compute compute(scope);
+    compute.storage(6, indices);
+    compute.storage(7, draws);
+    compute.use(writer);
+    compute.dispatch(3, 8);
+    compute.dispatch(0, 8);
+  }
+  EXPECT_EQ(draws.readAll<IndirectDraw>(1)[0].count, 3u);
+  EXPECT_EQ(indices.readAll<std::uint32_t>(7)[6], 5u);
+  PassState state = plain();
+  state.colourWrite = true;
+  {
+    Pass pass(scope, *target, state);
+    pass.clearIds(0);
+    pass.use(program);
+    pass.drawIndirect(vertices, draws, 0);
+  }
+  // Vertices 3 to 5: the triangle at depth 0.5.
+  EXPECT_EQ(readIds(scope, *target, kSize, kSize)(2, kSize - 3), 2u);
+  EXPECT_TRUE(log.messages().empty()) << log.messages().front();
 }
 
 TEST(ReadBack, PutsTheTopRowFirst) {

@@ -153,6 +153,7 @@ struct HostScope::State {
   GLint uniformBuffer = integer(GL_UNIFORM_BUFFER_BINDING);
   GLint storageBuffer = integer(GL_SHADER_STORAGE_BUFFER_BINDING);
   GLint packBuffer = integer(GL_PIXEL_PACK_BUFFER_BINDING);
+  GLint indirectBuffer = integer(GL_DRAW_INDIRECT_BUFFER_BINDING);
   GLint drawFramebuffer = integer(GL_DRAW_FRAMEBUFFER_BINDING);
   GLint readFramebuffer = integer(GL_READ_FRAMEBUFFER_BINDING);
 
@@ -212,6 +213,7 @@ void HostScope::State::restoreBindings() const {
   glBindBuffer(GL_UNIFORM_BUFFER, static_cast<GLuint>(uniformBuffer));
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(storageBuffer));
   glBindBuffer(GL_PIXEL_PACK_BUFFER, static_cast<GLuint>(packBuffer));
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, static_cast<GLuint>(indirectBuffer));
   const auto active = static_cast<GLenum>(integer(GL_ACTIVE_TEXTURE));
   for (GLuint i = 0; i < textures.size(); ++i) {
     // glBindTextureUnit(unit, 0) would unbind every target of the unit, so the 2D target is named.

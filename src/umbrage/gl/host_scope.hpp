@@ -8,7 +8,7 @@ namespace umbrage::gl {
 
 /// How many binding points of each kind the house uses, from 0; HostScope saves these and no more.
 inline constexpr int kUniformSlots = 2;
-inline constexpr int kStorageSlots = 5;
+inline constexpr int kStorageSlots = 8;
 inline constexpr int kTextureSlots = 2;
 
 /// A crossing of the border between a host's OpenGL state and ours: saves everything that a PassState and our draws can touch,
@@ -31,6 +31,7 @@ class HostScope {
 
  private:
   friend class Pass;
+  friend class Compute;
   struct State;
   std::unique_ptr<State> state_;
   bool inPass_ = false;

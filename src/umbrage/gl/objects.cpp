@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "umbrage/base/check.hpp"
+
 namespace umbrage::gl {
 namespace {
 
@@ -47,15 +49,29 @@ Buffer::Buffer() {
 }
 
 Result<void> Buffer::set(std::span<const std::byte> bytes) {
+  return allocate(bytes.size(), bytes.empty() ? nullptr : bytes.data());
+}
+
+Result<void> Buffer::reserve(std::size_t bytes) {
+  if (bytes <= bytes_) return {};
+  return allocate(bytes, nullptr);
+}
+
+Result<void> Buffer::allocate(std::size_t bytes, const std::byte* contents) {
   forgetOldErrors();
   // An empty buffer may not be bound for reading, so there is always at least one word.
-  const std::size_t size = bytes.empty() ? 16 : bytes.size();
-  glNamedBufferData(handle_.name(), static_cast<GLsizeiptr>(size), bytes.empty() ? nullptr : bytes.data(),
-                    GL_DYNAMIC_DRAW);
+  const std::size_t size = bytes == 0 ? 16 : bytes;
+  glNamedBufferData(handle_.name(), static_cast<GLsizeiptr>(size), contents, GL_DYNAMIC_DRAW);
   if (glGetError() == GL_OUT_OF_MEMORY)
     return fail(ErrorCode::device, "graphics memory is short of " + std::to_string(size) + " bytes");
-  bytes_ = bytes.size();
+  bytes_ = bytes;
   return {};
+}
+
+void Buffer::read(std::span<std::byte> out) const {
+  UMBRAGE_CHECK(out.size() <= bytes_, "read past the end of a buffer");
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  if (!out.empty()) glGetNamedBufferSubData(handle_.name(), 0, static_cast<GLsizeiptr>(out.size()), out.data());
 }
 
 Result<Texture> Texture::make(Format format, int width, int height) {

@@ -44,10 +44,21 @@ class Buffer {
   [[nodiscard]] Result<void> setOne(const T& value) {
     return set(std::as_bytes(std::span(&value, 1)));
   }
+  /// Makes it at least so large, for shaders to write; what it holds then means nothing. Errors: as set().
+  [[nodiscard]] Result<void> reserve(std::size_t bytes);
+  /// Copies from its beginning, waiting for shaders that write it. REQUIRES: it holds as much.
+  void read(std::span<std::byte> out) const;
+  template <class T>
+  [[nodiscard]] std::vector<T> readAll(std::size_t count) const {
+    std::vector<T> values(count);
+    read(std::as_writable_bytes(std::span(values)));
+    return values;
+  }
   [[nodiscard]] unsigned name() const { return handle_.name(); }
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
+  [[nodiscard]] Result<void> allocate(std::size_t bytes, const std::byte* contents);
   Handle handle_;
   std::size_t bytes_ = 0;
 };

@@ -9,7 +9,7 @@
 namespace umbrage::gl {
 namespace {
 
-// Draw calls count in signed 32-bit numbers; longer lists go in pieces, cut between triangles.
+// Draw calls count in signed 32-bit numbers; longer lists go in pieces, cut between triangles and between lines.
 constexpr std::size_t kMostIndicesPerDraw = std::size_t{3} << 28;
 
 GLenum code(Compare compare) {
@@ -35,6 +35,8 @@ GLenum code(StencilOp op) {
   }
   return GL_KEEP;
 }
+
+GLenum code(Primitive primitive) { return primitive == Primitive::lines ? GL_LINES : GL_TRIANGLES; }
 
 void turn(GLenum what, bool on) { on ? glEnable(what) : glDisable(what); }
 
@@ -127,13 +129,22 @@ void Pass::texture(unsigned slot, const Texture& texture) {
   glBindTextureUnit(slot, texture.name());
 }
 
-void Pass::drawIndexed(const VertexArray& vertices, std::size_t firstIndex, std::size_t indexCount) {
+void Pass::drawIndexed(const VertexArray& vertices, std::size_t firstIndex, std::size_t indexCount,
+                       Primitive primitive) {
   glBindVertexArray(vertices.name());
   for (std::size_t done = 0; done < indexCount; done += kMostIndicesPerDraw) {
     const auto count = static_cast<GLsizei>(std::min(kMostIndicesPerDraw, indexCount - done));
     const auto* offset = reinterpret_cast<const void*>((firstIndex + done) * sizeof(std::uint32_t));
-    glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset);
+    glDrawElements(code(primitive), count, GL_UNSIGNED_INT, offset);
   }
+}
+
+void Pass::drawIndirect(const VertexArray& vertices, const Buffer& draws, std::size_t which, Primitive primitive) {
+  UMBRAGE_CHECK((which + 1) * sizeof(IndirectDraw) <= draws.bytes(), "no such draw");
+  glBindVertexArray(vertices.name());
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, draws.name());
+  glDrawElementsIndirect(code(primitive), GL_UNSIGNED_INT,
+                         reinterpret_cast<const void*>(which * sizeof(IndirectDraw)));
 }
 
 void Pass::draw(const VertexArray& vertices, std::size_t vertexCount) {

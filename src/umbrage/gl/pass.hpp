@@ -10,6 +10,17 @@
 
 namespace umbrage::gl {
 
+enum class Primitive { triangles, lines };
+
+/// One draw whose size a shader has written: a buffer of these is what Pass::drawIndirect reads.
+struct IndirectDraw {
+  std::uint32_t count = 0;  ///< of indices
+  std::uint32_t instances = 1;
+  std::uint32_t firstIndex = 0;
+  std::int32_t baseVertex = 0;
+  std::uint32_t baseInstance = 0;
+};
+
 /// One pass: applies a whole PassState to a target, draws, and returns to the house baseline.
 /// REQUIRES: lives inside `scope`; passes do not nest (checked).
 class Pass {
@@ -31,8 +42,12 @@ class Pass {
   void uniforms(unsigned slot, const Buffer& buffer);
   void storage(unsigned slot, const Buffer& buffer);
   void texture(unsigned slot, const Texture& texture);
-  /// Triangles by 32-bit indices.
-  void drawIndexed(const VertexArray& vertices, std::size_t firstIndex, std::size_t indexCount);
+  /// By 32-bit indices.
+  void drawIndexed(const VertexArray& vertices, std::size_t firstIndex, std::size_t indexCount,
+                   Primitive primitive = Primitive::triangles);
+  /// The same with the numbers of entry `which` of a buffer of IndirectDraw; sees what Compute wrote.
+  void drawIndirect(const VertexArray& vertices, const Buffer& draws, std::size_t which,
+                    Primitive primitive = Primitive::triangles);
   /// Triangles without a buffer.
   void draw(const VertexArray& vertices, std::size_t vertexCount);
 

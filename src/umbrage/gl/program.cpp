@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <array>
+#include <initializer_list>
 
 #include "umbrage/base/check.hpp"
 
@@ -25,25 +26,36 @@ GLuint compile(GLenum stage, std::string_view source) {
   return shader;
 }
 
-}  // namespace
-
-Program::Program(std::string_view vertexSource, std::string_view fragmentSource) {
-  const GLuint vertex = compile(GL_VERTEX_SHADER, vertexSource);
-  const GLuint fragment = compile(GL_FRAGMENT_SHADER, fragmentSource);
+Handle link(std::initializer_list<GLuint> shaders) {
   const GLuint program = glCreateProgram();
-  handle_ = Handle(Handle::Kind::program, program);
-  glAttachShader(program, vertex);
-  glAttachShader(program, fragment);
+  Handle handle(Handle::Kind::program, program);
+  for (const GLuint shader : shaders) glAttachShader(program, shader);
   glLinkProgram(program);
   GLint good = GL_FALSE;
   glGetProgramiv(program, GL_LINK_STATUS, &good);
   std::array<char, kLogSize> log{};
   if (good != GL_TRUE) glGetProgramInfoLog(program, kLogSize, nullptr, log.data());
   UMBRAGE_CHECK(good == GL_TRUE, log.data());
-  for (const GLuint shader : {vertex, fragment}) {
+  for (const GLuint shader : shaders) {
     glDetachShader(program, shader);
     glDeleteShader(shader);
   }
+  return handle;
+}
+
+}  // namespace
+
+Program::Program(std::string_view vertexSource, std::string_view fragmentSource)
+    : handle_(link({compile(GL_VERTEX_SHADER, vertexSource), compile(GL_FRAGMENT_SHADER, fragmentSource)})) {}
+
+Program::Program(std::string_view vertexSource, std::string_view geometrySource, std::string_view fragmentSource)
+    : handle_(link({compile(GL_VERTEX_SHADER, vertexSource), compile(GL_GEOMETRY_SHADER, geometrySource),
+                    compile(GL_FRAGMENT_SHADER, fragmentSource)})) {}
+
+Program Program::compute(std::string_view source) {
+  Program program;
+  program.handle_ = link({compile(GL_COMPUTE_SHADER, source)});
+  return program;
 }
 
 }  // namespace umbrage::gl

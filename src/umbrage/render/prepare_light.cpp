@@ -247,7 +247,40 @@ LightVolume prepareVolume(const VolumeRequest& request, shadow::LightStats& stat
   return out;
 }
 
+LightVolume prepareOnCard(const VolumeRequest& request, shadow::LightStats& stats, const PhaseEnd& ended) {
+  UMBRAGE_CHECK(request.counting != Counting::zPassPlus, "a near rectangle is counted by the processor");
+  const shadow::CasterSet& casters = request.casters();
+  stats.method = name(request.counting);
+  stats.finder = shadow::name(shadow::FinderKind::gpu);
+  stats.edgesTested = casters.edges.size();
+  LightVolume out{.light = request.light, .counting = request.counting};
+  out.groups.emplace_back();
+  Shape shape(request);
+  const Components between = shadow::boxesBetween(casters, request.light, request.eye);
+  shape.endVolumes(between);
+  const Components useless = findUseless(request, shape, stats);
+  for (std::uint32_t c = 0; c < casters.componentCount; ++c) {
+    const Role role = between[c] != 0                          ? Role::failAtEye
+                      : request.counting == Counting::zFail ? Role::fail
+                                                               : Role::pass;
+    out.roles.push_back(useless[c] != 0 ? Role::leftOut : role);
+    stats.castersByZFail += request.counting != Counting::zFail && out.roles.back() == Role::failAtEye;
+  }
+  if (ended) ended("useless");
+  if (const shadow::Reach* reach = shape.reach(); reach != nullptr) {
+    out.farPoints = shadow::farPoints(casters, *reach, request.light, request.eye);
+    stats.endlessCasters = reach->endlessCount();
+  }
+  if (ended) ended("extrude");
+  return out;
+}
+
 std::vector<GroupPlan> planGroups(const LightVolume& volume) {
+  if (!volume.roles.empty()) {
+    const auto any = [&](auto which) { return std::any_of(volume.roles.begin(), volume.roles.end(), which); };
+    const bool fails = any([](Role r) { return r == Role::fail || r == Role::failAtEye; });
+    return {{.passSides = any([](Role r) { return r == Role::pass; }), .failSides = fails, .failCaps = fails}};
+  }
   std::vector<GroupPlan> plans;
   for (const VolumeGroup& group : volume.groups)
     plans.push_back({.eyeCount = group.eyeCount,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "umbrage/render/gpu_finder.hpp"
 #include "umbrage/render/pass_list.hpp"
 #include "umbrage/render/receiver_tiles.hpp"
 #include "umbrage/render/volume_options.hpp"
@@ -41,6 +42,9 @@ struct LightVolume {
   std::vector<Vec4f> farPoints;        ///< shadow::farPoints; empty: all at infinity
   /// One, unless a ray may meet more surfaces than 8 bits can count; then as many as 7 bits can, one bit keeping the result.
   std::vector<VolumeGroup> groups;
+  /// Per component, when volumes are still to be found and extruded on the graphics card (GpuFinder::extrude); then `indices` and the
+  /// ranges of the one group are empty.
+  std::vector<Role> roles;
 };
 
 /// Called with the name of each phase when it has ended.
@@ -65,6 +69,12 @@ struct VolumeRequest {
 
 /// Fills all of `stats` but its reason.
 [[nodiscard]] LightVolume prepareVolume(const VolumeRequest& request, shadow::LightStats& stats,
+                                        const PhaseEnd& ended = {});
+
+/// The same for edges that stay on the graphics card: only what becomes of each component, which boxes tell. Components whose box may lie between the
+/// eye and the light are counted by z-fail, to infinity, and the stencil starts from 0.
+/// REQUIRES: not zPassPlus; no ray from the light meets more than kWholeStencil layers.
+[[nodiscard]] LightVolume prepareOnCard(const VolumeRequest& request, shadow::LightStats& stats,
                                         const PhaseEnd& ended = {});
 
 /// What a plan needs to know of it.

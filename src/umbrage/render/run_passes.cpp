@@ -81,6 +81,9 @@ void draw(gl::Pass& pass, const PassStep& step, const RunInput& input, const Gpu
   pass.storage(0, input.positions);
   if (step.shader == Shader::finiteVolume) pass.storage(1, inPicture ? light->nearPoints : light->farPoints);
   const auto volume = [&](const IndexRange& range) { pass.drawIndexed(light->vertices, range.first, range.count); };
+  const auto part = [&](CardVolume::Part which, const IndexRange& range) {
+    light->onCard ? pass.drawIndirect(light->card.vertices, light->card.draws, which) : volume(range);
+  };
   const auto group = static_cast<std::size_t>(step.group);
   switch (step.draw) {
     case Draw::nothing: break;
@@ -94,9 +97,9 @@ void draw(gl::Pass& pass, const PassStep& step, const RunInput& input, const Gpu
       pass.drawIndexed(input.scene->largeVertices(), 0, input.scene->largeIndexCount());
       break;
     case Draw::nearCasters: volume(light->groups[group].nearCasters); break;
-    case Draw::passSides: volume(light->groups[group].passSides); break;
-    case Draw::failSides: volume(light->groups[group].failSides); break;
-    case Draw::failCaps: volume(light->groups[group].failCaps); break;
+    case Draw::passSides: part(CardVolume::passSides, light->groups[group].passSides); break;
+    case Draw::failSides: part(CardVolume::failSides, light->groups[group].failSides); break;
+    case Draw::failCaps: part(CardVolume::failCaps, light->groups[group].failCaps); break;
     case Draw::screen:
       if (step.shader != Shader::keepShadow) bindScreenInputs(pass, step, input, light);
       pass.draw(light != nullptr ? light->vertices : input.scene->vertices(), 3);

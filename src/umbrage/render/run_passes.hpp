@@ -29,6 +29,8 @@ struct GpuLight {
   gl::Buffer inPicture, nearPoints;  ///< for VolumeGroup::nearCasters: a view that changes nothing, and their points
   gl::VertexArray vertices{volume};
   std::vector<VolumeGroup> groups;
+  bool onCard = false;  ///< the volumes are `card`, not the groups' ranges
+  CardVolume card;
 };
 
 /// What the steps of a PassList refer to. Pointers may be null where no step needs them.

@@ -1,6 +1,7 @@
 #include <chrono>
 
 #include "umbrage/gl/read_back.hpp"
+#include "umbrage/render/gpu_finder.hpp"
 #include "umbrage/render/run_passes.hpp"
 #include "umbrage/render/technique.hpp"
 #include "umbrage/render/uniforms.hpp"
@@ -42,6 +43,8 @@ std::string reasonFor(Counting counting, const shadow::LightStats& stats, const 
     text = "no caps needed; counted at the eye, since the light shines along the near rectangle or lies beside it";
   else if (counting == Counting::zPassPlus && stats.castersByZFail == 0)
     text = "no caps needed; the casters are drawn as the light sees them through the near rectangle";
+  else if (stats.castersByZFail > 0 && !volume.roles.empty())
+    text = fallen + " casters by z-fail, since by their boxes they may lie between the eye and the light, the others by z-pass";
   else if (stats.castersByZFail > 0)
     text = fallen + " casters by z-fail, since the eye touches a side of their shadow volumes";
   else if (stats.eyeCount != 0)
@@ -79,8 +82,7 @@ class StencilTechnique final : public GlTechnique {
     own_->quirks = gl::findQuirks();
     own_->scene.emplace(std::move(*scene));
     geometry_ = std::move(geometry);
-    useFinder(shadow::FinderKind::automatic);
-    return {};
+    return useFinder(shadow::FinderKind::automatic);
   }
 
   Result<shadow::Shading> shade(const shadow::Frame& frame) override {
@@ -97,6 +99,7 @@ class StencilTechnique final : public GlTechnique {
     if (auto done = render(scope, *target, frame, Product::masks, nullptr, shading.stats, ended); !done)
       return tl::unexpected(done.error());
     readBack(scope, *target, frame, shading);
+    tellCounts(shading.stats);
     clock.end("readback");
     return shading;
   }
@@ -114,6 +117,7 @@ class StencilTechnique final : public GlTechnique {
     if (timed) ended = [&](const char* phase) { clock.end(phase); };
     if (auto done = render(scope, target, frame, Product::picture, &options, stats, ended); !done)
       return tl::unexpected(done.error());
+    if (timed) tellCounts(stats);
     return stats;
   }
 
@@ -126,11 +130,27 @@ class StencilTechnique final : public GlTechnique {
     Programs programs;
     gl::Buffer view, shading, materials;
     std::vector<GpuLight> lights;
+    std::unique_ptr<GpuFinder> finder;  ///< null: the processor finds silhouettes
   };
 
-  void useFinder(shadow::FinderKind kind) {
-    if (finder_ != nullptr && finder_->kind() == kind && &finder_->casters() == &geometry_->casters) return;
-    finder_ = shadow::makeFinder(kind, {geometry_, &geometry_->casters});
+  Result<void> useFinder(shadow::FinderKind kind) {
+    const std::shared_ptr<const shadow::CasterSet> casters(geometry_, &geometry_->casters);
+    const bool byChoice = kind == shadow::FinderKind::automatic && !own_->quirks.software && counting_ != Counting::zPassPlus;
+    if (byChoice || kind == shadow::FinderKind::gpu) {
+      if (own_->finder != nullptr && &own_->finder->casters() == casters.get()) return {};
+      auto made = GpuFinder::make(casters);
+      if (made) own_->finder = std::move(*made);
+      if (made) return {};
+      if (!byChoice) return tl::unexpected(made.error());
+    }
+    own_->finder.reset();
+    if (finder_ == nullptr || finder_->kind() != kind || &finder_->casters() != casters.get())
+      finder_ = shadow::makeFinder(kind, casters);
+    return {};
+  }
+
+  [[nodiscard]] const shadow::SilhouetteFinder& finder() const {
+    return own_->finder != nullptr ? static_cast<const shadow::SilhouetteFinder&>(*own_->finder) : *finder_;
   }
 
   static Result<void> resize(std::optional<GpuFrame>& frame, const scene::Camera& camera) {
@@ -152,7 +172,7 @@ class StencilTechnique final : public GlTechnique {
     if (auto done = own_->scene->arrangeFor(*geometry_, view, camera.width, camera.height); !done) return done;
     if (ended) ended("facing");
 
-    useFinder(frame.silhouettes);
+    if (auto done = useFinder(frame.silhouettes); !done) return done;
     const VolumeOptions volumes = frame.fill == shadow::VolumeFill::plain ? kPlainVolumes : options_;
     while (own_->lights.size() < frame.lights.size()) own_->lights.emplace_back();
     const RunInput input{.programs = own_->programs,
@@ -172,7 +192,7 @@ class StencilTechnique final : public GlTechnique {
       auto tiles = addReceivers(scope, i, frame.lights[i], view, camera, volumes, target, input, ended);
       if (!tiles) return tl::unexpected(tiles.error());
       auto plan =
-          addVolume(own_->lights[i], frame.lights[i], view, volumes, *tiles, placement, stats.lights.back(), ended);
+          addVolume(scope, own_->lights[i], frame.lights[i], view, volumes, *tiles, placement, stats.lights.back(), ended);
       if (!plan) return tl::unexpected(plan.error());
       plans.push_back(*plan);
     }
@@ -236,7 +256,42 @@ class StencilTechnique final : public GlTechnique {
     return tiles;
   }
 
-  Result<LightPlan> addVolume(GpuLight& gpu, const scene::Light& light, const View& view, const VolumeOptions& volumes,
+  // False when the edges have to come back to the processor: for what only it works out, for groups of layers, or for lack of room.
+  Result<bool> extrudeOnCard(gl::HostScope& scope, GpuLight& gpu, const VolumeRequest& request, LightVolume& volume,
+                             shadow::LightStats& stats, const PhaseEnd& ended) {
+    if (own_->finder == nullptr || counting_ == Counting::zPassPlus) return false;
+    if (own_->finder->layers(request.light) > kWholeStencil) return false;
+    if (ended) ended("layers");
+    shadow::LightStats onCard = stats;
+    LightVolume prepared = prepareOnCard(request, onCard, ended);
+    const bool endless = prepared.farPoints.empty(), toOnePoint = endless && request.light.w == 0.0;
+    const CardRequest wanted{.light = request.light,
+                             .eye = request.eye,
+                             .roles = prepared.roles,
+                             .sides = toOnePoint ? SideFormat::triangle : SideFormat::quad,
+                             .farCaps = !toOnePoint};
+    if (!own_->finder->fits(wanted)) return false;
+    if (auto done = own_->finder->extrude(scope, wanted, gpu.card); !done) return tl::unexpected(done.error());
+    stats = std::move(onCard);
+    volume = std::move(prepared);
+    if (ended) {
+      gl::finish();
+      ended("silhouette");
+    }
+    return true;
+  }
+
+  // What only the graphics card knew.
+  void tellCounts(shadow::FrameStats& stats) const {
+    for (std::size_t i = 0; i < stats.lights.size(); ++i) {
+      if (!own_->lights[i].onCard) continue;
+      const CardCounts counts = countsOf(own_->lights[i].card);
+      stats.lights[i].silhouetteEdges = counts.edges;
+      for (const std::size_t indices : counts.indices) stats.lights[i].volumeTriangles += indices / 3;
+    }
+  }
+
+  Result<LightPlan> addVolume(gl::HostScope& scope, GpuLight& gpu, const scene::Light& light, const View& view, const VolumeOptions& volumes,
                               const std::optional<ReceiverTiles>& tiles, const gl::PassState& placement,
                               shadow::LightStats& stats, const PhaseEnd& ended) {
     const shadow::CasterSet& casters = geometry_->casters;
@@ -246,7 +301,7 @@ class StencilTechnique final : public GlTechnique {
     Box3 counted = receivers;
     counted.add(view.eye - origin);
     const Vec4 homogeneous = scene::homogeneous(light, origin);
-    const VolumeRequest request{.finder = *finder_,
+    const VolumeRequest request{.finder = finder(),
                                 .light = homogeneous,
                                 .eye = view.eye - origin,
                                 .counting = counting_,
@@ -254,7 +309,11 @@ class StencilTechnique final : public GlTechnique {
                                 .receivers = receivers,
                                 .tiles = tiles ? &*tiles : nullptr,
                                 .view = &view};
-    const LightVolume volume = prepareVolume(request, stats, ended);
+    LightVolume volume;
+    const auto onCard = extrudeOnCard(scope, gpu, request, volume, stats, ended);
+    if (!onCard) return tl::unexpected(onCard.error());
+    gpu.onCard = *onCard;
+    if (!gpu.onCard) volume = prepareVolume(request, stats, ended);
     stats.reason = reasonFor(counting_, stats, volume);
     ViewBlock inPicture = viewBlock(view, origin, homogeneous);
     inPicture.toClip = Mat4f(1.0f);

@@ -124,6 +124,16 @@ std::vector<std::uint8_t> sidesAtEye(const CasterSet& casters, const Silhouette&
   return touched;
 }
 
+// A point of a side within the threshold of the eye lies on the way from the light through a point of the box; carried back along
+// it together, the eye comes to a point of its own way to the light, and the two are no farther apart than before.
+std::vector<std::uint8_t> boxesBetween(const CasterSet& casters, const Vec4& light, const Vec3& eye) {
+  const double threshold = (1.0 + 1e-9) * eyeThreshold(casters, light, eye);
+  std::vector<std::uint8_t> between(casters.componentCount, 0);
+  for (std::uint32_t c = 0; c < casters.componentCount; ++c)
+    between[c] = meets(casters.componentBounds[c], threshold, eye, light) ? 1 : 0;
+  return between;
+}
+
 bool liesOnSide(const CasterSet& casters, const SilhouetteEdge& edge, const Vec4& light, const Vec3& eye) {
   const Vec3 a = casters.position(edge.a), b = casters.position(edge.b);
   // Of what is farther from the eye than a corner, a side this near hides less than a thousandth of a pixel.
@@ -153,8 +163,8 @@ EyeCount chooseAtEye(const CasterSet& casters, const Silhouette& silhouette, con
   EyeCount plan;
   plan.threshold = eyeThreshold(casters, silhouette.light, eye);
   plan.byZFail = sidesAtEye(casters, silhouette, eye);
-  for (std::uint32_t c = 0; c < casters.componentCount; ++c)
-    if (meets(casters.componentBounds[c], plan.threshold, eye, silhouette.light)) plan.byZFail[c] = 1;
+  const std::vector<std::uint8_t> between = boxesBetween(casters, silhouette.light, eye);
+  for (std::uint32_t c = 0; c < casters.componentCount; ++c) plan.byZFail[c] |= between[c];
   plan.byZFailCount = static_cast<std::size_t>(std::count(plan.byZFail.begin(), plan.byZFail.end(), 1));
   return plan;
 }

@@ -21,6 +21,10 @@ struct EyeCount {
 [[nodiscard]] std::vector<std::uint8_t> sidesAtEye(const CasterSet& casters, const Silhouette& silhouette,
                                                    const Vec3& eye);
 
+/// Per component: 1 when it may lie between the eye and the light, or have a side or a face nearer to the eye than EyeCount::threshold, by its box alone.
+/// Law: every component of sidesAtEye and touchesEye is among them, and the eye is in the volume of no other.
+[[nodiscard]] std::vector<std::uint8_t> boxesBetween(const CasterSet& casters, const Vec4& light, const Vec3& eye);
+
 /// The distance below which a component goes to byZFail.
 [[nodiscard]] double eyeThreshold(const CasterSet& casters, const Vec4& light, const Vec3& eye);
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "support/finder_meshes.hpp"
 #include "umbrage/math/predicates.hpp"
 #include "umbrage/shadow/caster_set.hpp"
 #include "umbrage/shadow/composite.hpp"
@@ -308,6 +309,31 @@ TEST(EyeCount, HandsCastersNearTheEyeToZFail) {
 }
 
 // --- layering ------------------------------------------------------------------------------------------------------------
+
+// On lattices, where eyes stand in planes, on edges and at corners.
+TEST(EyeCount, AsksBoxesForAllThatItMayTouchOrCount) {
+  std::size_t between = 0, all = 0;
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    test_meshes::Random random(seed);
+    const auto mesh = test_meshes::latticeSoup(random);
+    const auto soup = mesh.casters();
+    const Vec4 light = test_meshes::latticeLight(random, mesh);
+    const auto silhouette = findSilhouette(soup, light, kEverySurface);
+    for (int i = 0; i < 8; ++i) {
+      const Vec3 eye = Vec3(test_meshes::latticePoint(random, 8)) * (i % 2 == 0 ? 1.0 : 0.5);
+      const auto boxes = boxesBetween(soup, light, eye);
+      const auto touched = touchesEye(soup, silhouette, eye);
+      for (std::uint32_t c = 0; c < soup.componentCount; ++c) {
+        ++all;
+        between += boxes[c];
+        ASSERT_LE(touched.byZFail[c], boxes[c]) << seed;
+      }
+      EXPECT_EQ(countSurfaces(soup, silhouette, eye, boxes).count, 0) << seed;
+    }
+  }
+  EXPECT_GT(between, 100u);
+  EXPECT_LT(between, all - 100);
+}
 
 TEST(LayeringBound, IsExactForAStackAndForAFence) {
   Soup stack;

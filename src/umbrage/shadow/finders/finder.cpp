@@ -15,13 +15,17 @@ namespace umbrage::shadow {
 namespace {
 
 constexpr std::array kKinds{FinderKind::automatic, FinderKind::bruteForce, FinderKind::bruteForceSimd,
-                            FinderKind::hextree,   FinderKind::hough,      FinderKind::potentiallyVisible};
-constexpr std::array<std::string_view, 6> kNames{"auto",    "brute_force", "brute_force_simd",
-                                                 "hextree", "hough",       "potentially_visible"};
+                            FinderKind::hextree,   FinderKind::hough,      FinderKind::potentiallyVisible,
+                            FinderKind::gpu};
+constexpr std::array<std::string_view, 7> kNames{"auto",    "brute_force", "brute_force_simd",
+                                                 "hextree", "hough",       "potentially_visible",
+                                                 "gpu"};
 
 }  // namespace
 
-std::span<const FinderKind> finderKinds() { return kKinds; }
+std::span<const FinderKind> finderKinds() { return std::span(kKinds).first(kKinds.size() - 1); }
+
+std::span<const FinderKind> allFinderKinds() { return kKinds; }
 
 std::string_view name(FinderKind kind) { return kNames[static_cast<std::size_t>(kind)]; }
 
@@ -45,7 +49,9 @@ std::unique_ptr<SilhouetteFinder> makeFinder(FinderKind kind, std::shared_ptr<co
     case FinderKind::hough: return std::make_unique<Hough>(std::move(casters), options);
     case FinderKind::potentiallyVisible: return std::make_unique<PotentiallyVisible>(std::move(casters), options);
     case FinderKind::automatic: return std::make_unique<Automatic>(std::move(casters), options);
+    case FinderKind::gpu: break;
   }
+  UMBRAGE_CHECK(false, "a finder of the processor");
   return nullptr;
 }
 

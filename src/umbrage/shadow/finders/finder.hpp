@@ -20,9 +20,13 @@ enum class FinderKind {
   hextree,         ///< a tree over the edges in the dual space of their planes
   hough,           ///< a tree over the edges in Hough space
   potentiallyVisible,  ///< an octree over the places of a point light, with the edges that each may have on its silhouette
+  gpu,                 ///< every edge, by compute shaders (render::GpuFinder): only techniques that draw with OpenGL have it
 };
 
+/// Those that makeFinder makes.
 [[nodiscard]] std::span<const FinderKind> finderKinds();
+/// All of them.
+[[nodiscard]] std::span<const FinderKind> allFinderKinds();
 /// As the command line spells it: "auto", "brute_force", "hextree", ..
 [[nodiscard]] std::string_view name(FinderKind kind);
 [[nodiscard]] std::optional<FinderKind> finderNamed(std::string_view name);
@@ -74,7 +78,7 @@ class SilhouetteFinder {
   std::shared_ptr<const CasterSet> casters_;
 };
 
-/// REQUIRES: casters is not null.
+/// REQUIRES: casters is not null; kind is one of finderKinds().
 [[nodiscard]] std::unique_ptr<SilhouetteFinder> makeFinder(FinderKind kind, std::shared_ptr<const CasterSet> casters,
                                                            const FinderOptions& options = {});
 

@@ -21,8 +21,12 @@
 namespace umbrage::shadow {
 namespace {
 
+using test_meshes::between;
+using test_meshes::latticeLight;
+using test_meshes::latticePoint;
+using test_meshes::latticeSoup;
 using test_meshes::Mesh;
-using Random = std::mt19937;
+using test_meshes::Random;
 
 constexpr SilhouetteOptions kEverySurface{.countEverySurface = true};
 constexpr FinderKind kClever[] = {FinderKind::bruteForce, FinderKind::bruteForceSimd,     FinderKind::hextree,
@@ -42,41 +46,6 @@ std::vector<SignedEdge> expected(const CasterSet& casters, const Vec4& light, co
   return edges;
 }
 
-int between(Random& random, int low, int high) {
-  return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
-}
-
-Vec3f latticePoint(Random& random, int reach) {
-  const int x = between(random, -reach, reach), y = between(random, -reach, reach), z = between(random, -reach, reach);
-  return {float(x), float(y), float(z)};
-}
-
-// Few points, so that edges are shared by many triangles, triangles are doubled, flat, slivers or in one plane.
-Mesh latticeSoup(Random& random) {
-  Mesh m;
-  m.positions.resize(static_cast<std::size_t>(between(random, 3, 14)));
-  const int reach = between(random, 1, 5);
-  for (Vec3f& p : m.positions) p = latticePoint(random, reach);
-  const auto last = static_cast<int>(m.positions.size()) - 1;
-  m.triangles.resize(static_cast<std::size_t>(between(random, 0, 40)));
-  for (mesh::Triangle& t : m.triangles)
-    for (std::uint32_t& corner : t) corner = static_cast<std::uint32_t>(between(random, 0, last));
-  if (between(random, 0, 1) == 1) {
-    const Vec3f foot = latticePoint(random, 3), size = glm::abs(latticePoint(random, 2)) + Vec3f(1.0f);
-    test_meshes::addBox(m, foot, size, 0.0f);
-  }
-  return m;
-}
-
-// Points and directions; often a corner, or in the plane of faces.
-Vec4 latticeLight(Random& random, const Mesh& m) {
-  const int kind = between(random, 0, 3);
-  if (kind == 0) return {Vec3(m.positions[random() % m.positions.size()]), 1.0};
-  const Vec3 p = Vec3(latticePoint(random, 6)) * (kind == 1 ? 1.0 : 0.25);
-  if (kind == 3 && p != Vec3(0.0)) return {p, 0.0};
-  return {p, 1.0};
-}
-
 // Powers of two: nothing is rounded.
 Mesh scaled(Mesh m, int exponent) {
   for (Vec3f& p : m.positions) p *= std::ldexp(1.0f, exponent);
@@ -84,7 +53,7 @@ Mesh scaled(Mesh m, int exponent) {
 }
 
 TEST(Finders, HaveNames) {
-  for (const FinderKind kind : finderKinds()) EXPECT_EQ(finderNamed(name(kind)), kind);
+  for (const FinderKind kind : allFinderKinds()) EXPECT_EQ(finderNamed(name(kind)), kind);
   EXPECT_EQ(finderNamed("bruteforce"), std::nullopt);
 }
 

@@ -1,0 +1,156 @@
+// The ways to find silhouettes and to extrude them, which must change no shadow: each against brute force.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/asking.hpp"
+#include "support/village.hpp"
+#include "umbrage/gl/context.hpp"
+#include "umbrage/techniques/gl/registry.hpp"
+
+namespace umbrage::techniques {
+namespace {
+
+using namespace support;
+
+struct Way {
+  const char* name;
+  std::size_t technique;  ///< in the registry
+  Asking::Ask ask;
+};
+
+Asking::Ask byGpu(shadow::VolumeFill fill = shadow::VolumeFill::reduced) {
+  return [fill](shadow::Frame& frame) {
+    frame.silhouettes = shadow::FinderKind::gpu;
+    frame.fill = fill;
+  };
+}
+
+enum Registered : std::size_t { zFail, zPass, zMixed, zPlus };
+
+std::vector<Way> ways() {
+  return {{"zfail_gpu", zFail, byGpu()},
+          {"zpass_gpu", zPass, byGpu()},
+          {"zmixed_gpu", zMixed, byGpu()},
+          {"zp_plus_gpu", zPlus, byGpu()},
+          {"zpass_gpu_plain", zPass, byGpu(shadow::VolumeFill::plain)}};
+}
+
+class Ways : public ::testing::TestWithParam<Way> {
+ protected:
+  void SetUp() override {
+    auto technique = openGlTechniques()[GetParam().technique].create();
+    if (!technique) GTEST_SKIP() << "no graphics: " << technique.error().text();
+    technique_ = std::make_unique<Asking>(std::move(*technique), GetParam().ask);
+  }
+  // Pixels far from every edge that differ from the truth.
+  std::size_t wrong(const Truth& truth, const scene::Camera& camera, const scene::Light& light) {
+    const auto shading = technique_->shade({camera, std::span(&light, 1)});
+    EXPECT_TRUE(shading);
+    if (!shading) return 1;
+    reason_ = shading->stats.lights[0].reason;
+    const auto expected = truth.mask(camera, light);
+    return shadow::compare(shading->masks[0], expected, truth.edges(camera, expected), 1).farFromEdge;
+  }
+  std::unique_ptr<shadow::Technique> technique_;
+  std::string reason_;
+};
+
+TEST_P(Ways, AgreeWithBruteForceForEveryEyeAndLight) {
+  const auto geometry = shadow::makeGeometry(village());
+  ASSERT_TRUE(technique_->prepare(geometry));
+  const Truth truth{geometry->surfaces};
+  for (const Eye& eye : eyes())
+    for (const Light3& light : lights())
+      EXPECT_EQ(wrong(truth, eye.camera, light.light), 0u) << eye.name << ", " << light.name << ": " << reason_;
+}
+
+TEST_P(Ways, AgreeWithBruteForceForEyesAtTheSidesOfVolumes) {
+  const auto geometry = shadow::makeGeometry(village());
+  ASSERT_TRUE(technique_->prepare(geometry));
+  const Truth truth{geometry->surfaces};
+  for (const Light3& light : {lights()[0], lights()[2]}) {
+    const auto silhouette = shadow::findSilhouette(geometry->casters, scene::homogeneous(light.light, Vec3(0.0)));
+    for (std::size_t i = 0; i < silhouette.edges.size(); i += 7)
+      for (const double distance : {0.0, -1e-6, 1e-4}) {
+        const Vec3 a = geometry->casters.position(silhouette.edges[i].a),
+                   b = geometry->casters.position(silhouette.edges[i].b), middle = glm::mix(a, b, 0.37);
+        const Vec3 away = glm::normalize(middle * silhouette.light.w - Vec3(silhouette.light));
+        const Vec3 normal = glm::normalize(glm::cross(b - a, away));
+        scene::Camera camera = cameraFrom(middle + 0.31 * away + distance * normal, {-0.4, 1.7, 0.6});
+        if (camera.eye.z < 0.05) continue;
+        camera.width = 40;
+        camera.height = 23;
+        EXPECT_EQ(wrong(truth, camera, light.light), 0u) << light.name << ", " << i << ", " << distance << reason_;
+      }
+  }
+}
+
+// 256 sheets between the light and the ground are more than 8 bits count.
+TEST_P(Ways, CountMoreLayersThanTheStencilHolds) {
+  auto sheet = std::make_shared<mesh::Mesh>();
+  sheet->positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  sheet->triangles = {{0, 1, 2}, {0, 2, 3}};
+  scene::Scene stack;
+  stack.materials = {{}};
+  stack.meshes = {sheet};
+  for (int i = 0; i < 256; ++i) {
+    Mat4 raised(1.0);
+    raised[3][2] = 1.0 + 0.01 * i;
+    stack.instances.push_back({"sheet", 0, raised});
+  }
+  ASSERT_TRUE(technique_->prepare(shadow::makeGeometry(scene::withGround(stack, 0.0))));
+  const scene::Light sun{scene::DirectionalLight{{0.001, 0.002, -1.0}}};
+  scene::Camera camera = cameraFrom({9, 1, 0.8}, {0, 0, 0});
+  camera.fovY = Angle::degrees(20);
+  camera.width = camera.height = 33;
+  const auto shading = technique_->shade({camera, std::span(&sun, 1)});
+  ASSERT_TRUE(shading);
+  EXPECT_EQ(shading->masks[0].light(16, 16), 0);
+}
+
+// As many edges as there are, whoever counts them.
+TEST_P(Ways, TellWhatTheyDid) {
+  const auto geometry = shadow::makeGeometry(village());
+  ASSERT_TRUE(technique_->prepare(geometry));
+  const scene::Light sun = lights()[0].light;
+  shadow::Frame frame{eyes()[0].camera, std::span(&sun, 1)};
+  const auto shading = technique_->shade(frame);
+  ASSERT_TRUE(shading);
+  const shadow::LightStats& stats = shading->stats.lights[0];
+  GetParam().ask(frame);
+  if (frame.silhouettes != shadow::FinderKind::automatic) {
+    EXPECT_EQ(stats.finder, shadow::name(frame.silhouettes));
+  }
+  EXPECT_FALSE(stats.reason.empty());
+  EXPECT_GT(stats.volumeTriangles, 0u);
+  const std::size_t all =
+      shadow::findSilhouette(geometry->casters, scene::homogeneous(sun, geometry->surfaces.origin)).edges.size();
+  EXPECT_LE(stats.silhouetteEdges, all);
+  EXPECT_GT(stats.silhouetteEdges, 0u);
+}
+
+TEST_P(Ways, SurviveScenesWithoutCasters) {
+  scene::Scene nothing;
+  nothing.materials = {{}};
+  ASSERT_TRUE(technique_->prepare(shadow::makeGeometry(nothing)));
+  const scene::Light sun = lights()[0].light;
+  EXPECT_TRUE(technique_->shade({eyes()[0].camera, std::span(&sun, 1)}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Gl, Ways, ::testing::ValuesIn(ways()), [](const auto& which) { return which.param.name; });
+
+// A rasteriser on the processor would find silhouettes slower than the processor itself does.
+TEST(AutomaticFinder, IsNotTheGraphicsCardWhereThereIsNone) {
+  const auto context = gl::Context::createHeadless();
+  if (!context || !(*context)->isSoftware()) GTEST_SKIP() << "only for software renderers";
+  auto technique = openGlTechniques()[zPass].create();
+  ASSERT_TRUE(technique && (*technique)->prepare(shadow::makeGeometry(village())));
+  const scene::Light sun = lights()[0].light;
+  const auto shading = (*technique)->shade({eyes()[0].camera, std::span(&sun, 1)});
+  ASSERT_TRUE(shading);
+  EXPECT_NE(shading->stats.lights[0].finder, "gpu");
+}
+
+}  // namespace
+}  // namespace umbrage::techniques
