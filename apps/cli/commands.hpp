@@ -11,6 +11,7 @@ namespace umbrage::cli {
 [[nodiscard]] Run addRender(CLI::App& app);
 [[nodiscard]] Run addCompare(CLI::App& app);
 [[nodiscard]] Run addProfile(CLI::App& app);
+[[nodiscard]] Run addOutline(CLI::App& app);
 [[nodiscard]] Run addSample(CLI::App& app);
 
 }  // namespace umbrage::cli

@@ -29,6 +29,7 @@ constexpr Command kCommands[] = {
     {"render", "A picture of a scene with exact shadows", addRender},
     {"compare", "Two techniques on one picture: which pixels differ", addCompare},
     {"profile", "The shadows of a day: every step over the scene, and the time in shadow", addProfile},
+    {"outline", "Shadows on a horizontal plane as exact outlines (GeoJSON, DXF, SVG)", addOutline},
     {"sample", "Writes one of the scenes that come with the program", addSample},
 };
 

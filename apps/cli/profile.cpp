@@ -1,11 +1,9 @@
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "choice.hpp"
 #include "commands.hpp"
+#include "moments.hpp"
 #include "outputs.hpp"
-#include "place.hpp"
 #include "umbrage/report/write_profile.hpp"
 #include "umbrage/study/profile.hpp"
 
@@ -21,15 +19,6 @@ struct ProfileOptions {
   std::string picture;
   bool noGround = false;
 };
-
-Result<std::chrono::milliseconds> parseStep(const std::string& word) {
-  const auto minutes = parseNumber(word, 0.0, 1440.0);
-  if (!minutes) return tl::unexpected(minutes.error());
-  const std::chrono::milliseconds step(std::llround(*minutes * 60000.0));
-  if (step.count() <= 0)
-    return fail(ErrorCode::usage, fmt::format("'{}' is no time: a number of minutes above 0", word));
-  return step;
-}
 
 // The three figures: as shown by report::writeProfile.
 Result<void> checkFiles(const std::string& picture, const std::string& scene) {

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+
+#include "umbrage/base/sha256.hpp"
 
 namespace umbrage::study {
 namespace {
@@ -28,6 +31,13 @@ std::string northText(const scene::Scene& scene) {
   return offset == 0.0 ? "true north is " + axis : fmt::format("true north {:g} degrees clockwise of {}", offset, axis);
 }
 
+std::string clockText(const sun::Zone& zone, const std::string& offset) {
+  const std::string clock = zone.kind == sun::Zone::Kind::solar   ? "true solar time"
+                            : zone.kind == sun::Zone::Kind::fixed ? "fixed"
+                                                                  : zone.name;
+  return clock + ", " + offset;
+}
+
 std::string castersText(const std::vector<std::string>& patterns) {
   if (patterns.empty()) return "everything but the ground";
   std::string text = "only";
@@ -43,15 +53,31 @@ std::string placeText(const sun::Place& place) {
                      longitude < 0 ? 'W' : 'E');
 }
 
+LedgerLine clockLine(const sun::Zone& zone, const std::string& offset) { return {"Clock", clockText(zone, offset)}; }
+LedgerLine northLine(const scene::Scene& scene) { return {"North", northText(scene)}; }
+LedgerLine castersLine(const std::vector<std::string>& patterns) { return {"Casters", castersText(patterns)}; }
+LedgerLine versionLine(const std::string& method) {
+  return {"Made by", fmt::format("Umbrage {}, {}", UMBRAGE_VERSION, method)};
+}
+
+LedgerLine unitLine(const scene::Scene& scene) {
+  const std::string unit = fmt::format("1 unit of the file = {:g} m", scene.metresPerUnit);
+  return {"Unit", scene.crs.empty() ? unit + ", no reference system" : unit + ", " + scene.crs};
+}
+
+LedgerLine inputLine(const scene::Scene& scene) {
+  if (scene.source.empty()) return {"Input", "made by the program"};
+  const auto hash = sha256OfFile(scene.source);
+  const std::string name = std::filesystem::path(scene.source).filename().string();
+  return {"Input", name + (hash ? ", SHA-256 " + *hash : ", made by the program")};
+}
+
 std::vector<LedgerLine> ledgerOf(const scene::Scene& scene, const ProfileOptions& options, const PeriodSteps& steps,
                                  const shadow::Traits& technique) {
   const Period& period = options.period;
-  const std::string clock = period.zone.kind == sun::Zone::Kind::solar   ? "true solar time"
-                            : period.zone.kind == sun::Zone::Kind::fixed ? "fixed"
-                                                                         : period.zone.name;
   return {{"Place", placeText(period.place)},
           {"Date", sun::dateText(period.date)},
-          {"Clock", clock + ", " + steps.offset},
+          {"Clock", clockText(period.zone, steps.offset)},
           {"Period", periodText(period, steps)},
           {"Sun", "centre of the disc, geometric (no refraction), declination moving, horizon at 0 degrees"},
           {"North", northText(scene)},

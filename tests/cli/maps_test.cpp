@@ -1,0 +1,163 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+// Maps: outlines of shadows and what their files hold.
+namespace umbrage::cli_test {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+using Json = nlohmann::json;
+
+const std::vector<std::string> kVienna = {"--lat",  "48.2",       "--lon", "16.37",
+                                          "--date", "2026-09-18", "--tz",  "Europe/Vienna"};
+
+class Maps : public CliTest {
+ protected:
+  static Ran run(std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return umbrage(words);
+  }
+  std::string writeSquare() const {
+    return write("square.geojson", R"({"type":"FeatureCollection","features":[{"type":"Feature","id":"b7",
+      "properties":{"height":10},"geometry":{"type":"Polygon","coordinates":
+      [[[16.37,48.2],[16.371,48.2],[16.371,48.201],[16.37,48.201],[16.37,48.2]]]}}]})");
+  }
+};
+
+double planeArea(const Json& ring) {
+  double area = 0.0;
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
+    const double x0 = ring[i][0].get<double>() - ring[0][0].get<double>(),
+                 y0 = ring[i][1].get<double>() - ring[0][1].get<double>();
+    const double x1 = ring[i + 1][0].get<double>() - ring[0][0].get<double>(),
+                 y1 = ring[i + 1][1].get<double>() - ring[0][1].get<double>();
+    area += 0.5 * (x0 * y1 - x1 * y0);
+  }
+  return area;
+}
+
+TEST_F(Maps, OutlineOfABox) {
+  // The sun of the contract's table: elevation 42.406, azimuth 163.413 at 12:00. The box is 2 x 2 x 2.
+  const Ran ran = run({"outline", writeBox(), "--at", "12:00", "-o", file("out.geojson")}, kVienna);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Json map = Json::parse(read("out.geojson"));
+  EXPECT_TRUE(map.at("crs").is_null());
+  const Json& feature = map.at("features").at(0);
+  const double reach = 2.0 / std::tan(42.406 * M_PI / 180), turn = 163.413 * M_PI / 180;
+  const double expected = 4.0 + 2.0 * reach * (std::abs(std::sin(turn)) + std::abs(std::cos(turn)));
+  EXPECT_NEAR(feature.at("properties").at("area_m2").get<double>(), expected, 2e-3);
+  EXPECT_NEAR(planeArea(feature.at("geometry").at("coordinates").at(0)),
+              feature.at("properties").at("area_m2").get<double>(), 1e-6);
+  EXPECT_EQ(feature.at("properties").at("time"), "12:00");
+  for (const char* subject :
+       {"Place", "Date", "Clock", "Sun", "Plane", "North", "Unit", "Input", "Made by", "Coordinates"})
+    EXPECT_TRUE(map.at("umbrage").contains(subject)) << subject;
+  EXPECT_THAT(map.at("umbrage").at("Input").get<std::string>(), HasSubstr("SHA-256"));
+}
+
+TEST_F(Maps, DegreesInDegreesOut) {
+  const Ran ran = umbrage({"outline", writeSquare(), "--date", "2026-09-18", "--tz", "Europe/Vienna", "--at", "12:00",
+                           "--at", "09:00", "-o", file("out.geojson")});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Json map = Json::parse(read("out.geojson"));
+  EXPECT_FALSE(map.contains("crs"));
+  ASSERT_EQ(map.at("features").size(), 2U);
+  const Json& first = map.at("features").at(0);
+  EXPECT_EQ(first.at("properties").at("time"), "09:00");
+  EXPECT_EQ(first.at("properties").at("name"), "b7");
+  const Json& ring = first.at("geometry").at("coordinates").at(0);
+  EXPECT_EQ(ring.front(), ring.back());
+  EXPECT_GT(planeArea(ring), 0.0);
+  // In the morning the shadow falls towards the west-north-west, and the south-eastern corner stays.
+  double west = 180.0, south = 90.0, east = -180.0;
+  for (const Json& p : ring) {
+    west = std::min(west, p[0].get<double>());
+    east = std::max(east, p[0].get<double>());
+    south = std::min(south, p[1].get<double>());
+  }
+  EXPECT_LT(west, 16.3698);
+  EXPECT_NEAR(east, 16.371, 1e-9);
+  EXPECT_NEAR(south, 48.2, 1e-9);
+}
+
+TEST_F(Maps, EveryFormat) {
+  const auto box = writeBox();
+  for (const char* name : {"out.geojson", "out.dxf", "out.svg"}) {
+    const Ran ran = run(
+        {"outline", box, "--from", "10:00", "--to", "12:00", "--step", "60", "--merged", "-o", file(name)}, kVienna);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_THAT(ran.out, AllOf(StartsWith(file(name)), HasSubstr("11:00")));
+    const std::string first = read(name);
+    EXPECT_EQ(
+        run({"outline", box, "--from", "10:00", "--to", "12:00", "--step", "60", "--merged", "-o", file(name)}, kVienna)
+            .code,
+        0);
+    EXPECT_EQ(read(name), first) << "same input, same bytes";
+  }
+  EXPECT_THAT(read("out.dxf"), AllOf(HasSubstr("AC1009"), HasSubstr("POLYLINE"), HasSubstr("SHA-256")));
+  EXPECT_THAT(read("out.svg"), AllOf(StartsWith("<svg"), HasSubstr("layer-2"), HasSubstr("SHA-256")));
+  EXPECT_THAT(files(), ElementsAre("box.off", "out.dxf", "out.geojson", "out.svg"));
+}
+
+TEST_F(Maps, RefusalsSayWhy) {
+  const auto box = writeBox();
+  const auto refused = [&](const std::vector<std::string>& words, int code, const std::string& part) {
+    const Ran ran = umbrage(words);
+    EXPECT_EQ(ran.code, code) << part;
+    EXPECT_THAT(ran.err, HasSubstr(part));
+  };
+  const std::string out = file("out.svg");
+  refused({"outline", box, "--lat", "48.2", "--lon", "16.37", "--date", "2026-09-18", "--tz", "Europe/Vienna", "--at",
+           "02:00", "-o", out},
+          2, "below the horizon");
+  refused({"outline", box, "--lat", "70", "--lon", "20", "--date", "2026-12-21", "--tz", "solar", "--at", "12:00", "-o",
+           out},
+          2, "does not rise");
+  refused({"outline", box, "--date", "2026-09-18", "--tz", "solar", "--at", "12:00", "-o", out}, 2, "no georeference");
+  refused({"outline", box, "--lat", "48", "--date", "2026-09-18", "--tz", "solar", "--at", "12:00", "-o", out}, 2,
+          "--lon");
+  refused({"outline", box, "--lat", "48", "--lon", "16", "--date", "2026-09-18", "--tz", "solar", "-o", out}, 2,
+          "--at");
+  refused({"outline", box, "--lat", "48", "--lon", "16", "--date", "2026-09-18", "--tz", "solar", "--at", "12:00", "-o",
+           file("out.png")},
+          2, ".geojson");
+  const auto metres =
+      write("metres.geojson", R"({"type":"Feature","properties":{"height":3},"geometry":{"type":"Polygon",
+    "coordinates":[[[0,0],[20,0],[20,15],[0,0]]]}})");
+  refused({"outline", metres, "--lat", "48", "--lon", "16", "--date", "2026-09-18", "--tz", "solar", "--at", "12:00",
+           "-o", out},
+          3, "--crs local");
+  EXPECT_THAT(files(), ElementsAre("box.off", "metres.geojson"));
+}
+
+TEST_F(Maps, AFarPlaceIsWorthAWarning) {
+  const Ran ran = run({"outline", writeSquare(), "--at", "12:00", "-o", file("out.svg")},
+                      {"--lat", "35", "--lon", "139", "--date", "2026-09-18", "--tz", "solar"});
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_THAT(ran.err, HasSubstr("km from where the scene says"));
+}
+
+TEST_F(Maps, TrueNorthIsWorthAWarning) {
+  const auto rotterdam = write("r.geojson", R"({"type":"FeatureCollection","crs":{"type":"name","properties":
+    {"name":"urn:ogc:def:crs:EPSG::28992"}},"features":[{"type":"Feature","properties":{"height":20},"geometry":
+    {"type":"Polygon","coordinates":[[[91000,435700],[91010,435700],[91010,435710],[91000,435700]]]}}]})");
+  const std::vector<std::string> when = {"--date", "2026-06-21", "--tz", "Europe/Amsterdam",
+                                         "--at",   "12:00",      "-o",   file("out.geojson")};
+  const Ran plain = run({"outline", rotterdam}, when);
+  EXPECT_THAT(plain.err, AllOf(HasSubstr("0.73 degrees"), HasSubstr("--north true")));
+  const std::string before = read("out.geojson");
+  const Ran asked = run({"outline", rotterdam, "--north", "true"}, when);
+  EXPECT_THAT(asked.err, IsEmpty());
+  EXPECT_NE(read("out.geojson"), before);
+}
+
+}  // namespace
+}  // namespace umbrage::cli_test
