@@ -1,5 +1,5 @@
 // What each way to draw less of the shadow volumes gains, against the plain volumes and bare shadow rays: paired rounds in one run.
-//   umbrage_fill_benchmark [ROUNDS [VIEW]]
+//   umbrage_fill_benchmark [ROUNDS [VIEW [WORD]]]     WORD: only ways with it in their names, beside the first
 // A line gives, over the rounds: the volumes' phase (least and median, in milliseconds, and the median ratio to plain zfail in the same round), the
 // work on the processor for it, and the whole shading of the light without the surfaces (least, and the median ratio to bare rays).
 #include <algorithm>
@@ -21,11 +21,18 @@ struct Variant {
   const char* name;
   render::Counting counting;
   render::VolumeOptions options;
+  shadow::FinderKind finder = shadow::FinderKind::automatic;
 };
 
 const std::vector<Variant>& variants() {
   using render::Counting;
+  using enum shadow::Extrusion;
+  using enum shadow::FinderKind;
   const render::VolumeOptions plain = render::kPlainVolumes;
+  const auto by = [](render::VolumeOptions o, shadow::Extrusion extrusion) {
+    o.extrusion = extrusion;
+    return o;
+  };
   const auto with = [&](bool finite, bool hiddenCasters, bool hiddenParts) {
     render::VolumeOptions o = plain;
     o.finite = finite, o.hiddenCasters = hiddenCasters, o.hiddenParts = hiddenParts;
@@ -42,8 +49,26 @@ const std::vector<Variant>& variants() {
                                         {"zpass hidden parts", Counting::zPass, with(false, false, true)},
                                         {"zpass finite + casters", Counting::zPass, with(true, true, false)},
                                         {"zpass finite + parts", Counting::zPass, with(true, false, true)},
-                                        {"zpass reduced", Counting::zPass, with(true, true, true)}};
+                                        {"zpass reduced", Counting::zPass, with(true, true, true)},
+                                        {"zfail plain, cpu", Counting::zFail, by(plain, processor)},
+                                        {"zfail plain, geometry", Counting::zFail, by(plain, geometryShader)},
+                                        {"zfail plain, gpu", Counting::zFail, plain, gpu},
+                                        {"zpass plain, cpu", Counting::zPass, by(plain, processor)},
+                                        {"zpass plain, geometry", Counting::zPass, by(plain, geometryShader)},
+                                        {"zpass plain, gpu", Counting::zPass, plain, gpu},
+                                        {"zpass reduced, cpu", Counting::zPass, by({}, processor)},
+                                        {"zpass reduced, geometry", Counting::zPass, by({}, geometryShader)},
+                                        {"zpass reduced, gpu", Counting::zPass, {}, gpu}};
   return all;
+}
+
+// The first, and those with `word` in their names.
+std::vector<Variant> variantsWith(std::string_view word) {
+  std::vector<Variant> some = variants();
+  some.erase(std::remove_if(some.begin() + 1, some.end(),
+                            [&](const Variant& v) { return std::string_view(v.name).find(word) == std::string_view::npos; }),
+             some.end());
+  return some;
 }
 
 struct Times {
@@ -74,17 +99,22 @@ std::unique_ptr<shadow::Technique> make(const Variant& v, const std::shared_ptr<
   return techniques::makeZPass(context, v.options);
 }
 
-bool measure(const View& view, int rounds, const std::shared_ptr<gl::Context>& context) {
+bool measure(const View& view, const std::vector<Variant>& chosen, int rounds, const std::shared_ptr<gl::Context>& context) {
   const shadow::Frame frame{view.camera, {&view.light, 1}};
+  const auto askedFor = [&](const Variant& v) {
+    shadow::Frame asked = frame;
+    asked.silhouettes = v.finder;
+    return asked;
+  };
   auto truth = techniques::cpuTechniques().front().create();
   if (!truth || !(*truth)->prepare(view.geometry)) return false;
   const auto expected = (*truth)->shade(frame);
   const BareRays bare(view);
   std::vector<std::unique_ptr<shadow::Technique>> all;
-  for (const Variant& v : variants()) {
+  for (const Variant& v : chosen) {
     all.push_back(make(v, context));
     if (!all.back()->prepare(view.geometry)) return false;
-    for (int i = 0; i < 2; ++i) (void)all.back()->shade(frame);  // shaders compile in the first frames
+    for (int i = 0; i < 2; ++i) (void)all.back()->shade(askedFor(v));  // shaders compile in the first frames
   }
   std::vector<Times> times(all.size());
   std::vector<shadow::Shading> last(all.size());
@@ -95,7 +125,7 @@ bool measure(const View& view, int rounds, const std::shared_ptr<gl::Context>& c
     const double rays = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     bareTimes.push_back(rays);
     for (std::size_t i = 0; i < all.size(); ++i) {
-      auto shading = all[i]->shade(frame);
+      auto shading = all[i]->shade(askedFor(chosen[i]));
       if (!shading) return false;
       Times& t = times[i];
       t.volumes.push_back(sum(shading->stats, {"volumes"}));
@@ -114,7 +144,7 @@ bool measure(const View& view, int rounds, const std::shared_ptr<gl::Context>& c
         "  %-24s volumes %7.1f %7.1f ms %6.3f | processor %5.1f | shading %7.1f ms, %5.2f of bare | %7zu triangles, "
         "casters hidden "
         "%zu behind %zu endless %zu, sides behind %zu | %zu pixels differ\n",
-        variants()[i].name, least(t.volumes), median(t.volumes), median(t.toPlain), least(t.processor),
+        chosen[i].name, least(t.volumes), median(t.volumes), median(t.toPlain), least(t.processor),
         least(t.shading), median(t.toBare), s.volumeTriangles, s.castersHidden, s.castersBehind, s.endlessCasters,
         s.sidesBehind, differing(last[i].masks[0].light, expected->masks[0].light));
     if (i == 4 || i + 1 == all.size()) {
@@ -133,7 +163,8 @@ bool measure(const View& view, int rounds, const std::shared_ptr<gl::Context>& c
 int main(int argc, char** argv) {
   using namespace umbrage::benchmarks;
   const int rounds = argc > 1 ? std::atoi(argv[1]) : 7;
-  const std::string_view only = argc > 2 ? argv[2] : "";
+  const std::string_view only = argc > 2 && argv[2] != std::string_view("all") ? argv[2] : "";
+  const auto chosen = umbrage::benchmarks::variantsWith(argc > 3 ? argv[3] : "");
   const auto context = umbrage::gl::Context::createHeadless();
   if (!context) {
     std::printf("cannot run here: %s\n", context.error().text().c_str());
@@ -148,6 +179,6 @@ int main(int argc, char** argv) {
                                                            {"building_street", fromTheStreet}};
   for (const auto& [name, make] : views)
     if (only.empty() || name == only)
-      if (!measure(make(), rounds, *context)) return 1;
+      if (!measure(make(), chosen, rounds, *context)) return 1;
   return 0;
 }

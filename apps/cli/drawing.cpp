@@ -19,7 +19,7 @@ Result<Drawing> draw(const std::string& technique, const std::shared_ptr<const s
   drawing.createMs = watch.lap();
   if (const auto prepared = chosen->technique->prepare(geometry); !prepared) return tl::unexpected(prepared.error());
   drawing.prepareMs = watch.lap();
-  auto shading = chosen->technique->shade({view.camera, view.lights, view.silhouettes, view.fill});
+  auto shading = chosen->technique->shade({view.camera, view.lights, view.silhouettes, view.fill, view.extrusion});
   if (!shading) return tl::unexpected(shading.error());
   drawing.shadeMs = watch.lap();
   drawing.shading = std::move(*shading);

@@ -22,6 +22,13 @@ Result<shadow::VolumeFill> parseFill(const std::string& word) {
   return fail(ErrorCode::usage, fmt::format("'{}' is neither reduced nor plain", word));
 }
 
+Result<shadow::Extrusion> parseExtrusion(const std::string& word) {
+  if (word == "cpu") return shadow::Extrusion::processor;
+  if (word == "vertex") return shadow::Extrusion::vertexShader;
+  if (word == "geometry") return shadow::Extrusion::geometryShader;
+  return fail(ErrorCode::usage, "must be one of cpu, vertex, geometry");
+}
+
 // parseNumber, parseDegrees with their limits.
 auto numberIn(double low, double high) {
   return [low, high](const std::string& word) { return parseNumber(word, low, high); };
@@ -94,6 +101,9 @@ void addSilhouetteOption(CLI::App& app, ViewOptions& options) {
   addValue(app, "--volume-fill", "reduced|plain",
            "Whether shadow volumes leave out what changes no pixel; changes times, no pixel (default reduced)", options.fill,
            parseFill, kPicture);
+  addValue(app, "--extrude", "cpu|vertex|geometry",
+           "Who carries shadow volumes away from the light: the processor, a vertex or a geometry shader; changes times, no pixel (default vertex)",
+           options.extrusion, parseExtrusion, kPicture);
 }
 
 }  // namespace umbrage::cli

@@ -50,6 +50,7 @@ struct ViewOptions {
   int antialias = 1;        ///< the picture is drawn this many times as wide and high, and averaged
   shadow::FinderKind silhouettes = shadow::FinderKind::automatic;
   shadow::VolumeFill fill = shadow::VolumeFill::reduced;
+  shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
 };
 void addCameraOptions(CLI::App& app, ViewOptions& options);
 void addLightOptions(CLI::App& app, ViewOptions& options);
@@ -64,6 +65,7 @@ struct View {
   std::vector<scene::Light> lights;
   shadow::FinderKind silhouettes = shadow::FinderKind::automatic;
   shadow::VolumeFill fill = shadow::VolumeFill::reduced;
+  shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
   std::string cameraReason;
   std::string lightReason;
 };

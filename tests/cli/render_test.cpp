@@ -205,6 +205,19 @@ TEST_F(RenderCommand, EverySilhouetteFinderGivesTheSameMask) {
   }
 }
 
+// On one machine, not a byte.
+TEST_F(RenderCommand, WhoExtrudesChangesNoPixel) {
+  std::string mask;
+  for (const std::string who : {"cpu", "vertex", "geometry"}) {
+    const Ran ran = umbrage({"render", "sample:tower", "--technique", "zfail", "--extrude", who, "--mask",
+                             file("mask.png"), "--light", "point:20,-30,60", "--size", "200x150"});
+    if (ran.code == 4) GTEST_SKIP() << "no graphics here: " << ran.err;
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    if (mask.empty()) mask = read("mask.png");
+    EXPECT_TRUE(read("mask.png") == mask) << who;
+  }
+}
+
 TEST_F(RenderCommand, CompareAgreesAndSaysSo) {
   const auto box = writeBox();
   const Ran ran = umbrage({"compare", box, "--ground", "--technique", "ray_traced", "--against", "ray_traced", "--size",

@@ -93,6 +93,7 @@ INSTANTIATE_TEST_SUITE_P(
         render("AntialiasHalf", {"--antialias", "1.5"}, "--antialias"),
         render("AntialiasZero", {"--antialias", "0"}, "--antialias"),
         render("ShowUnknown", {"--show", "volume"}, "volumes, silhouette"),
+        render("ExtrudeUnknown", {"--extrude", "gpu"}, "cpu, vertex, geometry"),
         Wrong{"ShowWithoutPicture", {"render", "BOX", "--mask", "OUT", "--show", "volumes"}, "--show"},
         profile("ProfileStepZero", {"--step", "0"}, "--step"),
         profile("ProfileStepWord", {"--step", "often"}, "--step"),

@@ -78,6 +78,9 @@ CardCounts countsOf(const CardVolume& volume) {
   CardCounts counts;
   counts.edges = draws.found;
   for (std::size_t i = 0; i < draws.draw.size(); ++i) counts.indices[i] = draws.draw[i].count;
+  const std::size_t sides = (counts.indices[CardVolume::passSides] + counts.indices[CardVolume::failSides]) /
+                            static_cast<std::size_t>(volume.sides);
+  counts.triangles = sides * (volume.farCaps ? 2 : 1) + counts.indices[CardVolume::failCaps] / 3;
   return counts;
 }
 
@@ -175,6 +178,8 @@ Result<void> GpuFinder::run(gl::HostScope& scope, const CardRequest& request, bo
                            out.indices.reserve((most[0] + most[1] + most[2]) * sizeof(std::uint32_t))})
     if (!done) return done;
 
+  out.sides = request.sides;
+  out.farCaps = request.farCaps;
   gl::Compute compute(scope);
   compute.uniforms(0, query_);
   compute.storage(0, positions_);

@@ -43,12 +43,15 @@ struct CardVolume {
   gl::Buffer indices;
   gl::Buffer draws;  ///< one gl::IndirectDraw a Part, then the number of edges found
   gl::VertexArray vertices{indices};
+  SideFormat sides = SideFormat::quad;
+  bool farCaps = true;
 };
 
 /// What a CardVolume turned out to be.
 struct CardCounts {
   std::size_t edges = 0;                 ///< on the silhouette, of components that are not left out
   std::array<std::size_t, 3> indices{};  ///< per CardVolume::Part
+  std::size_t triangles = 0;             ///< that are drawn
 };
 /// Waits for the graphics card.
 [[nodiscard]] CardCounts countsOf(const CardVolume& volume);

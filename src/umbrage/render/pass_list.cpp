@@ -15,6 +15,13 @@ constexpr std::array kDraws{
 
 Compare nearer(bool reversed) { return reversed ? Compare::greater : Compare::less; }
 
+Shader shaderOf(const LightPlan& plan, Draw draw) {
+  if (plan.extrusion == shadow::Extrusion::processor) return Shader::carriedVolume;
+  if (plan.extrusion == shadow::Extrusion::geometryShader && draw != Draw::failCaps)
+    return plan.finite ? Shader::finiteVolumeSides : Shader::volumeSides;
+  return plan.finite ? Shader::finiteVolume : Shader::volume;
+}
+
 struct Planner {
   gl::PassState placement;
   bool reversed;
@@ -72,7 +79,7 @@ struct Planner {
     PassStep s = step(name, "volumes", stencilTarget());
     s.light = light;
     s.group = group;
-    s.shader = plan.finite ? Shader::finiteVolume : Shader::volume;
+    s.shader = shaderOf(plan, draw);
     s.draw = draw;
     s.state.depth = {.test = true, .pass = pass, .write = false, .clamp = true};
     s.state.stencil = {.test = true, .compare = Compare::always, .front = front, .back = back};

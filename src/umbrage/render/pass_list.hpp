@@ -7,11 +7,28 @@
 #include <vector>
 
 #include "umbrage/gl/pass_state.hpp"
+#include "umbrage/shadow/technique.hpp"
 
 namespace umbrage::render {
 
 enum class Target { surface, tiles, stencil, mask, sum, picture, host };
-enum class Shader { none, surface, largeSurface, receiverTiles, volume, finiteVolume, keepShadow, lightMask, ambient, light, encode };
+/// Of volumes: `volume` and `finiteVolume` from doubled vertices, `carriedVolume` from LightVolume::points, .. `Sides` from edges by a geometry shader.
+enum class Shader {
+  none,
+  surface,
+  largeSurface,
+  receiverTiles,
+  volume,
+  finiteVolume,
+  carriedVolume,
+  volumeSides,
+  finiteVolumeSides,
+  keepShadow,
+  lightMask,
+  ambient,
+  light,
+  encode
+};
 /// What is drawn: nothing, the surfaces (those that reach far apart), a part of a light's volumes, one triangle over the whole target.
 enum class Draw { nothing, surfaces, largeSurfaces, nearCasters, passSides, failSides, failCaps, screen };
 
@@ -53,6 +70,7 @@ struct LightPlan {
   /// where they are, that would make caps fight with the surfaces they lie on.
   bool compareCaps = false;
   bool twoSided = true;  ///< false: a pass for each face
+  shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
   bool finite = false;  ///< the volumes' ends are given (LightVolume::farPoints)
   gl::Rect volumeArea, litArea;
 };

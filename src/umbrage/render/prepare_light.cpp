@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "umbrage/base/check.hpp"
+#include "umbrage/render/carry.hpp"
 #include "umbrage/render/near_rectangle.hpp"
 #include "umbrage/shadow/finders/threads.hpp"
 #include "umbrage/shadow/hidden_casters.hpp"
@@ -158,12 +159,27 @@ Components touched(const VolumeRequest& request, const std::vector<Part>& parts)
   return all;
 }
 
+bool sidesAsEdges(const VolumeRequest& request) {
+  return request.options.extrusion == shadow::Extrusion::geometryShader;
+}
+
+// Triangles that are drawn. Edges become sides, of one triangle where all their far vertices are one point.
+std::size_t trianglesIn(const LightVolume& volume, bool sidesAsEdges) {
+  const std::size_t side = volume.farPoints.empty() && volume.light.w == 0.0 ? 1 : 2;
+  std::size_t triangles = volume.indices.size() / 3;
+  if (!sidesAsEdges) return triangles;
+  triangles = 0;
+  for (const VolumeGroup& g : volume.groups)
+    triangles += (g.passSides.count + g.failSides.count) / 2 * side + (g.failCaps.count + g.nearCasters.count) / 3;
+  return triangles;
+}
+
 std::vector<std::uint32_t> passSides(const VolumeRequest& request, const Part& part, const Shape& shape,
                                      shadow::LightStats& stats) {
   Components chosen;
   if (part.atEye.byZFailCount > 0)
     for (const std::uint8_t fallen : part.atEye.byZFail) chosen.push_back(fallen == 0 ? 1 : 0);
-  shadow::ExtrudeOptions options{.caps = false, .components = chosen, .reach = shape.reach(), .keepSide = {}};
+  shadow::ExtrudeOptions options{.caps = false, .components = chosen, .reach = shape.reach(), .keepSide = {}, .sidesAsEdges = sidesAsEdges(request)};
   if (dropsParts(request))
     options.keepSide = [&](const shadow::SilhouetteEdge& edge) {
       const bool keep = shape.mayCount(edge);
@@ -186,7 +202,8 @@ void addGroup(LightVolume& out, const VolumeRequest& request, const Part& part, 
              !shadow::liesOnSide(request.casters(), edge, request.light, request.eye);
     };
     shadow::ShadowVolume volume = shadow::extrude(request.casters(), part.silhouette,
-                                                  {.components = chosen, .reach = shape.reach(), .keepSide = isSeen});
+                                                  {.components = chosen, .reach = shape.reach(), .keepSide = isSeen,
+                                                   .sidesAsEdges = sidesAsEdges(request)});
     group.failSides = append(out.indices, std::move(volume.sides));
     group.failCaps = append(out.indices, std::move(volume.caps));
     if (!zFail) stats.castersByZFail += part.atEye.byZFailCount;
@@ -242,7 +259,8 @@ LightVolume prepareVolume(const VolumeRequest& request, shadow::LightStats& stat
     addGroup(out, request, part, shape, stats);
     if (throughNear) out.groups.back().nearCasters = appendNearCasters(out, request, part, *throughNear);
   }
-  stats.volumeTriangles = out.indices.size() / 3;
+  stats.volumeTriangles = trianglesIn(out, sidesAsEdges(request));
+  if (request.options.extrusion == shadow::Extrusion::processor) carryOnProcessor(casters, request.eye, out);
   end("extrude");
   return out;
 }

@@ -40,6 +40,7 @@ struct LightVolume {
   std::vector<Vec4f> nearPoints;       ///< of VolumeGroup::nearCasters, in clip coordinates; index 2i + 1 is point i
   bool nearDegenerates = false;        ///< zPassPlus had to start from the count at the eye
   std::vector<Vec4f> farPoints;        ///< shadow::farPoints; empty: all at infinity
+  std::vector<Vec4f> points;           ///< when the processor extrudes: what `indices` then point at (carryOnProcessor)
   /// One, unless a ray may meet more surfaces than 8 bits can count; then as many as 7 bits can, one bit keeping the result.
   std::vector<VolumeGroup> groups;
   /// Per component, when volumes are still to be found and extruded on the graphics card (GpuFinder::extrude); then `indices` and the

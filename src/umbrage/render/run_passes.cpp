@@ -11,6 +11,10 @@
 #include <umbrage_shaders/surface_vert.hpp>
 #include <umbrage_shaders/volume_far_vert.hpp>
 #include <umbrage_shaders/volume_frag.hpp>
+#include <umbrage_shaders/volume_points_vert.hpp>
+#include <umbrage_shaders/volume_sides_far_vert.hpp>
+#include <umbrage_shaders/volume_sides_geom.hpp>
+#include <umbrage_shaders/volume_sides_vert.hpp>
 #include <umbrage_shaders/volume_vert.hpp>
 
 #include "umbrage/base/check.hpp"
@@ -26,6 +30,9 @@ gl::Program compile(Shader shader) {
     case Shader::surface: return {kSurfaceVert, kSurfaceFrag};
     case Shader::largeSurface: return {kSurfaceVert, kSurfaceLargeFrag};
     case Shader::receiverTiles: return {kScreenVert, kReceiverTilesFrag};
+    case Shader::carriedVolume: return {kVolumePointsVert, kVolumeFrag};
+    case Shader::volumeSides: return {kVolumeSidesVert, kVolumeSidesGeom, kVolumeFrag};
+    case Shader::finiteVolumeSides: return {kVolumeSidesFarVert, kVolumeSidesGeom, kVolumeFrag};
     case Shader::finiteVolume: return {kVolumeFarVert, kVolumeFrag};
     case Shader::volume: return {kVolumeVert, kVolumeFrag};
     case Shader::keepShadow: return {kScreenVert, kVolumeFrag};
@@ -78,11 +85,13 @@ void draw(gl::Pass& pass, const PassStep& step, const RunInput& input, const Gpu
   pass.use(input.programs.get(step.shader));
   const bool inPicture = step.draw == Draw::nearCasters;
   pass.uniforms(0, inPicture ? light->inPicture : light != nullptr ? light->view : *input.view);
-  pass.storage(0, input.positions);
-  if (step.shader == Shader::finiteVolume) pass.storage(1, inPicture ? light->nearPoints : light->farPoints);
-  const auto volume = [&](const IndexRange& range) { pass.drawIndexed(light->vertices, range.first, range.count); };
+  pass.storage(0, step.shader == Shader::carriedVolume ? light->points : input.positions);
+  const bool fromEdges = step.shader == Shader::volumeSides || step.shader == Shader::finiteVolumeSides;
+  const auto primitive = fromEdges ? gl::Primitive::lines : gl::Primitive::triangles;
+  if (step.shader == Shader::finiteVolume || step.shader == Shader::finiteVolumeSides) pass.storage(1, inPicture ? light->nearPoints : light->farPoints);
+  const auto volume = [&](const IndexRange& range) { pass.drawIndexed(light->vertices, range.first, range.count, primitive); };
   const auto part = [&](CardVolume::Part which, const IndexRange& range) {
-    light->onCard ? pass.drawIndirect(light->card.vertices, light->card.draws, which) : volume(range);
+    light->onCard ? pass.drawIndirect(light->card.vertices, light->card.draws, which, primitive) : volume(range);
   };
   const auto group = static_cast<std::size_t>(step.group);
   switch (step.draw) {

@@ -25,7 +25,7 @@ class Programs {
 
 /// One light's data on the graphics card.
 struct GpuLight {
-  gl::Buffer view, shading, facing, volume, farPoints;
+  gl::Buffer view, shading, facing, volume, farPoints, points;
   gl::Buffer inPicture, nearPoints;  ///< for VolumeGroup::nearCasters: a view that changes nothing, and their points
   gl::VertexArray vertices{volume};
   std::vector<VolumeGroup> groups;

@@ -173,7 +173,8 @@ class StencilTechnique final : public GlTechnique {
     if (ended) ended("facing");
 
     if (auto done = useFinder(frame.silhouettes); !done) return done;
-    const VolumeOptions volumes = frame.fill == shadow::VolumeFill::plain ? kPlainVolumes : options_;
+    VolumeOptions volumes = frame.fill == shadow::VolumeFill::plain ? kPlainVolumes : options_;
+    volumes.extrusion = frame.extrusion.value_or(options_.extrusion);
     while (own_->lights.size() < frame.lights.size()) own_->lights.emplace_back();
     const RunInput input{.programs = own_->programs,
                          .positions = own_->scene->positions(),
@@ -259,16 +260,18 @@ class StencilTechnique final : public GlTechnique {
   // False when the edges have to come back to the processor: for what only it works out, for groups of layers, or for lack of room.
   Result<bool> extrudeOnCard(gl::HostScope& scope, GpuLight& gpu, const VolumeRequest& request, LightVolume& volume,
                              shadow::LightStats& stats, const PhaseEnd& ended) {
-    if (own_->finder == nullptr || counting_ == Counting::zPassPlus) return false;
+    const shadow::Extrusion extrusion = request.options.extrusion;
+    if (own_->finder == nullptr || counting_ == Counting::zPassPlus || extrusion == shadow::Extrusion::processor) return false;
     if (own_->finder->layers(request.light) > kWholeStencil) return false;
     if (ended) ended("layers");
     shadow::LightStats onCard = stats;
     LightVolume prepared = prepareOnCard(request, onCard, ended);
     const bool endless = prepared.farPoints.empty(), toOnePoint = endless && request.light.w == 0.0;
+    const SideFormat whole = toOnePoint ? SideFormat::triangle : SideFormat::quad;
     const CardRequest wanted{.light = request.light,
                              .eye = request.eye,
                              .roles = prepared.roles,
-                             .sides = toOnePoint ? SideFormat::triangle : SideFormat::quad,
+                             .sides = extrusion == shadow::Extrusion::geometryShader ? SideFormat::line : whole,
                              .farCaps = !toOnePoint};
     if (!own_->finder->fits(wanted)) return false;
     if (auto done = own_->finder->extrude(scope, wanted, gpu.card); !done) return tl::unexpected(done.error());
@@ -287,7 +290,7 @@ class StencilTechnique final : public GlTechnique {
       if (!own_->lights[i].onCard) continue;
       const CardCounts counts = countsOf(own_->lights[i].card);
       stats.lights[i].silhouetteEdges = counts.edges;
-      for (const std::size_t indices : counts.indices) stats.lights[i].volumeTriangles += indices / 3;
+      stats.lights[i].volumeTriangles = counts.triangles;
     }
   }
 
@@ -317,7 +320,7 @@ class StencilTechnique final : public GlTechnique {
     stats.reason = reasonFor(counting_, stats, volume);
     ViewBlock inPicture = viewBlock(view, origin, homogeneous);
     inPicture.toClip = Mat4f(1.0f);
-    for (const auto& done : {gpu.volume.setAll(volume.indices), gpu.farPoints.setAll(volume.farPoints),
+    for (const auto& done : {gpu.volume.setAll(volume.indices), gpu.farPoints.setAll(volume.farPoints), gpu.points.setAll(volume.points),
                              gpu.inPicture.setOne(inPicture), gpu.nearPoints.setAll(volume.nearPoints)})
       if (!done) return tl::unexpected(done.error());
     gpu.groups = volume.groups;
@@ -328,6 +331,7 @@ class StencilTechnique final : public GlTechnique {
     return LightPlan{
         .groups = planGroups(volume),
         .twoSided = volumes.twoSided,
+        .extrusion = volumes.extrusion,
         .finite = !volume.farPoints.empty(),
         .volumeArea = volumeArea(view, casters.bounds, counted, homogeneous, origin, placement),
         .litArea = gl::intersect(litArea(view, light, placement), boxArea(view, receivers, origin, placement))};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "umbrage/shadow/technique.hpp"
+
 namespace umbrage::render {
 
 /// What is done to draw less of the volumes. Nothing here changes a pixel of a shadow.
@@ -12,6 +14,7 @@ struct VolumeOptions {
   bool hiddenParts = true;
   /// Both faces are counted in one pass. Without, as on cards before 2003, the volumes are drawn twice, with one face culled: for comparison.
   bool twoSided = true;
+  shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
 };
 
 /// Infinite volumes of all casters, as the textbooks have them.

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -45,12 +46,20 @@ enum class VolumeFill {
   plain,    ///< everything, to infinity: for comparison
 };
 
+/// Who carries the vertices of shadow volumes away from the light; no pixel depends on it.
+enum class Extrusion {
+  processor,       ///< every vertex that is drawn is computed and sent
+  vertexShader,    ///< indices into doubled vertices are sent
+  geometryShader,  ///< edges are sent; their sides are made of them on the way. Caps as vertexShader
+};
+
 /// One picture's worth of work.
 struct Frame {
   scene::Camera camera;
   std::span<const scene::Light> lights;
   FinderKind silhouettes = FinderKind::automatic;  ///< who finds them, where the technique needs silhouettes; changes no pixel
   VolumeFill fill = VolumeFill::reduced;
+  std::optional<Extrusion> extrusion = {};  ///< none: as the technique was made
 };
 
 struct PhaseTime {

@@ -31,6 +31,14 @@ void appendSide(std::vector<std::uint32_t>& out, const SilhouetteEdge& edge, boo
   }
 }
 
+void appendEdge(std::vector<std::uint32_t>& out, const SilhouetteEdge& edge) {
+  const bool turned = edge.multiplicity < 0;
+  for (int i = 0; i < std::abs(edge.multiplicity); ++i) {
+    out.push_back(nearVertex(turned ? edge.b : edge.a));
+    out.push_back(nearVertex(turned ? edge.a : edge.b));
+  }
+}
+
 void appendCaps(std::vector<std::uint32_t>& out, mesh::Triangle corners, int side, bool toOnePoint) {
   if (side < 0) std::swap(corners[1], corners[2]);
   const auto [a, b, c] = corners;
@@ -76,11 +84,14 @@ ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, con
     return options.components.empty() || options.components[component] != 0;
   };
   ShadowVolume volume;
+  const auto append = [&](const SilhouetteEdge& edge) {
+    options.sidesAsEdges ? appendEdge(volume.sides, edge) : appendSide(volume.sides, edge, toOnePoint(edge.component));
+  };
   const std::size_t perEdge = directional && options.reach == nullptr ? 3 : 6;
   if (!options.keepSide) volume.sides.reserve(silhouette.edges.size() * perEdge);
   for (const SilhouetteEdge& edge : silhouette.edges)
     if (chosen(edge.component) && (!options.keepSide || options.keepSide(edge)))
-      appendSide(volume.sides, edge, toOnePoint(edge.component));
+      append(edge);
   if (!options.caps) return volume;
   if (options.components.empty()) volume.caps.reserve(casters.triangles.size() * perEdge);
   for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)

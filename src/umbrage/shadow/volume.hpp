@@ -31,6 +31,9 @@ struct ExtrudeOptions {
   const Reach* reach = nullptr;  ///< null: every component reaches to infinity
   /// False leaves a side out. Empty: all are extruded.
   std::function<bool(const SilhouetteEdge&)> keepSide;
+  /// `sides` holds edges instead of triangles, two indices each, for a shader that makes sides of them: from 2a to 2b where the near cap runs
+  /// from a to b. A side is then the triangles (2b, 2a, 2a+1) and, unless both far vertices are one point, (2b, 2a+1, 2b+1).
+  bool sidesAsEdges = false;
 };
 
 [[nodiscard]] ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, const ExtrudeOptions& options = {});
