@@ -159,6 +159,8 @@ const std::vector<GLenum> kFactors{GL_ZERO,      GL_ONE,           GL_SRC_COLOR,
                                    GL_DST_ALPHA, GL_CONSTANT_COLOR};
 const std::vector<GLenum> kEquations{GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_FUNC_REVERSE_SUBTRACT, GL_MIN, GL_MAX};
 
+bool hasDepthBounds() { return epoxy_has_gl_extension("GL_EXT_depth_bounds_test"); }
+
 GLuint makeProgram(GLenum stage, const char* source) { return glCreateShaderProgramv(stage, 1, &source); }
 
 }  // namespace
@@ -226,6 +228,10 @@ void WildHost::randomiseTests() {
     glColorMaski(i, coin(), coin(), coin(), coin());
   }
   glBlendColor(0.1f, 0.2f, 0.1f * float(number(0, 10)), 0.4f);
+  if (hasDepthBounds()) {
+    coin() ? glEnable(GL_DEPTH_BOUNDS_TEST_EXT) : glDisable(GL_DEPTH_BOUNDS_TEST_EXT);
+    glDepthBoundsEXT(number(0, 5) / 10.0, number(5, 10) / 10.0);
+  }
   glLogicOp(coin() ? GL_XOR : GL_CLEAR);
   if (compatibility_) glAlphaFunc(GL_NEVER, 0.5f);
 }
@@ -303,6 +309,10 @@ Snapshot WildHost::snapshot() const {
   for (GLuint i = 0; i < kViewports; ++i)
     s["GL_SCISSOR_TEST[" + std::to_string(i) + "]"] = {double(glIsEnabledi(GL_SCISSOR_TEST, i))};
   for (const Wide& w : kValues) s[w.name] = floats(w.what, w.count);
+  if (hasDepthBounds()) {
+    s["GL_DEPTH_BOUNDS_TEST_EXT"] = {double(glIsEnabled(GL_DEPTH_BOUNDS_TEST_EXT))};
+    s["GL_DEPTH_BOUNDS_EXT"] = floats(GL_DEPTH_BOUNDS_EXT, 2);
+  }
   if (!compatibility_) s["GL_POLYGON_MODE"].resize(1);  // one mode for both faces
   readIndexed(s, GL_VIEWPORT, "GL_VIEWPORT", kViewports, 4);
   readIndexed(s, GL_SCISSOR_BOX, "GL_SCISSOR_BOX", kViewports, 4);

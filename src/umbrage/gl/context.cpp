@@ -98,6 +98,7 @@ Quirks findQuirks() {
   for (const char* name : {"llvmpipe", "softpipe", "swrast", "SWR"})
     quirks.software = quirks.software || renderer.find(name) != std::string::npos;
   quirks.timerQueriesMeasureSubmissionOnly = quirks.software;
+  quirks.depthBounds = epoxy_has_gl_extension("GL_EXT_depth_bounds_test");
   GLint64 bytes = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
   quirks.maxStorageBytes = static_cast<std::uint64_t>(bytes);
@@ -120,6 +121,7 @@ Result<std::shared_ptr<Context>> Context::createHeadless(const ContextOptions& o
     const CurrentContext current(context);
     context->renderer_ = currentRenderer();
     context->quirks_ = findQuirks();
+    if (options.adjust) options.adjust(context->quirks_);
     return context;
   }
   return fail(ErrorCode::device,

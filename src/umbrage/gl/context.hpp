@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -11,6 +12,7 @@ namespace umbrage::gl {
 struct ContextOptions {
   bool debug = false;          ///< ask for a debug context, so that DebugLog hears everything
   bool compatibility = false;  ///< the compatibility profile, as older hosts need
+  std::function<void(Quirks&)> adjust = {};  ///< says what the driver is to be taken for: for tests
 };
 
 /// For programs that bring their own context. Errors: ErrorCode::device when none is current or it is older than OpenGL 4.5.

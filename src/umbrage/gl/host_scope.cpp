@@ -139,6 +139,9 @@ int attachmentBits(GLuint framebuffer, GLenum ofWindow, GLenum ofFramebuffer, GL
 
 struct HostScope::State {
   bool compatibility = isCompatibilityContext();
+  bool knowsDepthBounds = epoxy_has_gl_extension("GL_EXT_depth_bounds_test");
+  GLboolean depthBoundsTest = GL_FALSE;
+  std::array<GLdouble, 2> depthBounds{};
   std::array<GLboolean, kSwitches.size()> switches{};
   std::array<GLboolean, kCompatibilitySwitches.size()> compatibilitySwitches{};
   std::array<GLboolean, kIndexedSwitches.size()> indexedSwitches{};
@@ -201,6 +204,9 @@ HostScope::State::State() {
   glGetBooleani_v(GL_COLOR_WRITEMASK, 0, colourMask.data());
   glGetIntegerv(GL_POLYGON_MODE, polygonMode.data());
   glGetBooleanv(GL_DEPTH_WRITEMASK, &depthMask);
+  if (!knowsDepthBounds) return;
+  depthBoundsTest = glIsEnabled(GL_DEPTH_BOUNDS_TEST_EXT);
+  glGetDoublev(GL_DEPTH_BOUNDS_EXT, depthBounds.data());
 }
 
 void HostScope::State::restoreBindings() const {
@@ -245,6 +251,10 @@ void HostScope::State::restoreFixedFunctions() const {
   }
   glDepthFunc(static_cast<GLenum>(depthFunc));
   glDepthMask(depthMask);
+  if (knowsDepthBounds) {
+    turn(GL_DEPTH_BOUNDS_TEST_EXT, depthBoundsTest == GL_TRUE);
+    glDepthBoundsEXT(depthBounds[0], depthBounds[1]);
+  }
   set(GL_FRONT, front);
   set(GL_BACK, back);
   set(blend);
@@ -281,6 +291,8 @@ HostScope::~HostScope() {
   UMBRAGE_CHECK(!inPass_, "a pass outlives its host scope");
   state_->restore();
 }
+
+bool HostScope::knowsDepthBounds() const { return state_->knowsDepthBounds; }
 
 unsigned HostScope::hostFramebuffer() const { return static_cast<unsigned>(state_->drawFramebuffer); }
 

@@ -33,6 +33,7 @@ class HostScope {
   friend class Pass;
   friend class Compute;
   struct State;
+  [[nodiscard]] bool knowsDepthBounds() const;
   std::unique_ptr<State> state_;
   bool inPass_ = false;
 };

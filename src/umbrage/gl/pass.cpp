@@ -61,7 +61,16 @@ void apply(Blend blend) {
   glBlendFunci(0, GL_ONE, blend == Blend::over ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
 }
 
-void apply(const PassState& state) {
+// The extension's state is left alone where there is none.
+void applyBounds(const std::optional<std::array<float, 2>>& bounds, bool known) {
+  UMBRAGE_CHECK(known || !bounds, "this driver knows no depth bounds");
+  if (!known) return;
+  turn(GL_DEPTH_BOUNDS_TEST_EXT, bounds.has_value());
+  if (bounds) glDepthBoundsEXT(double((*bounds)[0]), double((*bounds)[1]));
+}
+
+void apply(const PassState& state, bool knowsDepthBounds) {
+  applyBounds(state.depthBounds, knowsDepthBounds);
   apply(state.depth);
   apply(state.stencil);
   apply(state.blend);
@@ -88,11 +97,11 @@ Pass::Pass(HostScope& scope, unsigned hostFramebuffer, const PassState& state) :
   UMBRAGE_CHECK(!scope.inPass_, "passes do not nest");
   scope.inPass_ = true;
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, hostFramebuffer);
-  apply(state);
+  apply(state, scope.knowsDepthBounds());
 }
 
 Pass::~Pass() {
-  apply(PassState{});
+  apply(PassState{}, scope_.knowsDepthBounds());
   glUseProgram(0);
   glBindVertexArray(0);
   scope_.inPass_ = false;

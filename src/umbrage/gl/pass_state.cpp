@@ -78,6 +78,8 @@ std::string describe(const PassState& state) {
     out += "; depth range " + std::to_string(state.depthRange[0]) + ".." + std::to_string(state.depthRange[1]);
   if (state.clipOrigin == ClipOrigin::upperLeft) out += "; origin upper left";
   if (state.scissor) out += "; scissor " + text(*state.scissor);
+  if (state.depthBounds)
+    out += "; depth bounds " + std::to_string((*state.depthBounds)[0]) + ".." + std::to_string((*state.depthBounds)[1]);
   return out;
 }
 

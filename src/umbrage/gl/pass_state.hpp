@@ -61,6 +61,8 @@ struct PassState {
   std::array<float, 2> depthRange{0.0f, 1.0f};
   Rect viewport;
   std::optional<Rect> scissor;  ///< none: the whole viewport
+  /// Fragments that fall where the stored depth lies outside are left out, stencil and all. REQUIRES: Quirks::depthBounds; lowest first, within 0..1.
+  std::optional<std::array<float, 2>> depthBounds;
   friend bool operator==(const PassState&, const PassState&) = default;
 };
 

@@ -12,6 +12,11 @@ struct Quirks {
   /// llvmpipe's timer queries measure submission, not rasterisation (4.7 ms reported, 125 ms passed). Nothing here uses them:
   /// phases are timed by the wall clock between two finishes, which is right on every driver.
   bool timerQueriesMeasureSubmissionOnly = false;
+  /// Both faces of a triangle can be counted into the stencil in one pass. Every driver of OpenGL 4.5 says so; where it is not true, volumes are drawn
+  /// twice with one face culled, which tests force (ContextOptions::adjust).
+  bool twoSidedStencil = true;
+  /// GL_EXT_depth_bounds_test: fragments can be left out by the depth that is stored where they fall. llvmpipe has it not.
+  bool depthBounds = false;
   /// The largest buffer a shader may read; 128 MiB on llvmpipe, 2 GiB and more on GPUs.
   std::uint64_t maxStorageBytes = 0;
   /// The largest width and height of a target.

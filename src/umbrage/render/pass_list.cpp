@@ -85,6 +85,7 @@ struct Planner {
     s.state.stencil = {.test = true, .compare = Compare::always, .front = front, .back = back};
     if (plan.groups.size() > 1) s.state.stencil.writeMask = kCountBits;
     if (area != placement.viewport) s.state.scissor = area;
+    s.state.depthBounds = plan.depthBounds;
     if (plan.twoSided)
       list.steps.push_back(s);
     else

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -73,6 +74,7 @@ struct LightPlan {
   shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
   bool finite = false;  ///< the volumes' ends are given (LightVolume::farPoints)
   gl::Rect volumeArea, litArea;
+  std::optional<std::array<float, 2>> depthBounds;  ///< outside of them no volume needs to be drawn (render::depthBounds)
 };
 
 enum class Product {

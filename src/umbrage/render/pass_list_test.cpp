@@ -76,6 +76,19 @@ TEST(PlanPasses, OneFaceAtATimeWithoutTwoSidedStencil) {
   EXPECT_TRUE(approval::approved("passes_one_sided", describe(wholeFrame({light}, Product::masks))));
 }
 
+TEST(PlanPasses, DepthBoundsHoldForVolumesAlone) {
+  const LightPlan light{.groups = {{.passSides = true, .failSides = true, .failCaps = true}},
+                        .volumeArea = kAll,
+                        .litArea = kAll,
+                        .depthBounds = {{0.25f, 0.5f}}};
+  const PassList list = wholeFrame({light}, Product::masks);
+  for (const PassStep& step : list.steps) {
+    const bool volume = step.draw == Draw::passSides || step.draw == Draw::failSides || step.draw == Draw::failCaps;
+    EXPECT_EQ(step.state.depthBounds.has_value(), volume) << step.name;
+  }
+  EXPECT_NE(describe(list).find("depth bounds 0.25"), std::string::npos);
+}
+
 TEST(PlanPasses, TilesOfReceivers) {
   EXPECT_TRUE(approval::approved("passes_tiles", describe(planTiles(0, {0, 0, 4, 3}))));
 }

@@ -1,6 +1,7 @@
 #include <chrono>
 
 #include "umbrage/gl/read_back.hpp"
+#include "umbrage/render/depth_bounds.hpp"
 #include "umbrage/render/gpu_finder.hpp"
 #include "umbrage/render/run_passes.hpp"
 #include "umbrage/render/technique.hpp"
@@ -79,7 +80,7 @@ class StencilTechnique final : public GlTechnique {
     auto scene = GpuScene::make(geometry->surfaces);
     if (!scene) return tl::unexpected(scene.error());
     if (own_ == nullptr) own_ = std::make_unique<Own>();
-    own_->quirks = gl::findQuirks();
+    own_->quirks = context_ != nullptr ? context_->quirks() : gl::findQuirks();
     own_->scene.emplace(std::move(*scene));
     geometry_ = std::move(geometry);
     return useFinder(shadow::FinderKind::automatic);
@@ -328,13 +329,18 @@ class StencilTechnique final : public GlTechnique {
       gl::finish();
       ended("upload");
     }
+    const std::vector<GroupPlan> groups = planGroups(volume);
+    std::optional<std::array<float, 2>> bounds;
+    if (volumes.depthBounds && own_->quirks.depthBounds)
+      bounds = depthBounds(view, placement, volumeDistances(view, casters.bounds, counted, homogeneous, origin), groups);
     return LightPlan{
-        .groups = planGroups(volume),
-        .twoSided = volumes.twoSided,
+        .groups = groups,
+        .twoSided = volumes.twoSided && own_->quirks.twoSidedStencil,
         .extrusion = volumes.extrusion,
         .finite = !volume.farPoints.empty(),
         .volumeArea = volumeArea(view, casters.bounds, counted, homogeneous, origin, placement),
-        .litArea = gl::intersect(litArea(view, light, placement), boxArea(view, receivers, origin, placement))};
+        .litArea = gl::intersect(litArea(view, light, placement), boxArea(view, receivers, origin, placement)),
+        .depthBounds = bounds};
   }
 
   void readBack(const gl::HostScope& scope, const GpuFrame& target, const shadow::Frame& frame, shadow::Shading& out) {

@@ -120,19 +120,22 @@ gl::Rect boxArea(const View& view, const Box3& box, const Vec3& origin, const gl
   return pixelsOf(view, points, placement);
 }
 
-gl::Rect volumeArea(const View& view, const Box3& casters, const Box3& receivers, const Vec4& light, const Vec3& origin,
-                    const gl::PassState& placement) {
-  if (casters.empty()) return {};
+std::vector<Vec4> sweptCorners(const Box3& casters, const Box3& receivers, const Vec4& light) {
   const double reach = receivers.empty() ? kEndless : sweepOut(casters, receivers, light);
   std::vector<Vec4> points;
   for (const Vec3& corner : cornersOf(casters)) {
     const Vec3 away = corner * light.w - Vec3(light);
-    points.emplace_back(corner + origin - view.eye, 1.0);
-    if (reach < kEndless)
-      points.emplace_back(corner + reach * away + origin - view.eye, 1.0);
-    else
-      points.emplace_back(away, 0.0);
+    points.emplace_back(corner, 1.0);
+    points.emplace_back(reach < kEndless ? Vec4(corner + reach * away, 1.0) : Vec4(away, 0.0));
   }
+  return points;
+}
+
+gl::Rect volumeArea(const View& view, const Box3& casters, const Box3& receivers, const Vec4& light, const Vec3& origin,
+                    const gl::PassState& placement) {
+  if (casters.empty()) return {};
+  std::vector<Vec4> points = sweptCorners(casters, receivers, light);
+  for (Vec4& point : points) point += Vec4((origin - view.eye) * point.w, 0.0);
   return pixelsOf(view, points, placement);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "umbrage/gl/pass_state.hpp"
 #include "umbrage/math/box.hpp"
 #include "umbrage/scene/camera.hpp"
@@ -34,6 +36,10 @@ struct View {
 /// The pixels that a box can be seen in. The whole viewport when it crosses the plane of the eye, none when it is empty.
 /// `box` is relative to `origin`.
 [[nodiscard]] gl::Rect boxArea(const View& view, const Box3& box, const Vec3& origin, const gl::PassState& placement);
+
+/// Points whose hull holds the casters' box swept away from the light as far as there are receivers; w = 0 for those at infinity. Boxes, `light` and the points are
+/// relative to the same origin. REQUIRES: the box of casters is not empty.
+[[nodiscard]] std::vector<Vec4> sweptCorners(const Box3& casters, const Box3& receivers, const Vec4& light);
 
 /// The pixels in which the casters' shadow volumes can matter: their box swept away from the light, as far as there are
 /// receivers (for z-pass: and the eye). Same fall-back. Boxes and `light` are relative to `origin`; an empty box of receivers stands for all of space.

@@ -14,10 +14,12 @@ struct VolumeOptions {
   bool hiddenParts = true;
   /// Both faces are counted in one pass. Without, as on cards before 2003, the volumes are drawn twice, with one face culled: for comparison.
   bool twoSided = true;
+  /// Where the driver can (gl::Quirks::depthBounds), nothing is drawn over pixels whose depth no volume of the light reaches.
+  bool depthBounds = true;
   shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
 };
 
 /// Infinite volumes of all casters, as the textbooks have them.
-inline constexpr VolumeOptions kPlainVolumes{.finite = false, .hiddenCasters = false, .hiddenParts = false};
+inline constexpr VolumeOptions kPlainVolumes{.finite = false, .hiddenCasters = false, .hiddenParts = false, .depthBounds = false};
 
 }  // namespace umbrage::render

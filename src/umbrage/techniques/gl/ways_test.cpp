@@ -6,7 +6,10 @@
 #include "support/asking.hpp"
 #include "support/village.hpp"
 #include "umbrage/gl/context.hpp"
+#include "umbrage/render/depth_bounds.hpp"
 #include "umbrage/techniques/gl/registry.hpp"
+#include "umbrage/techniques/gl/zfail.hpp"
+#include "umbrage/techniques/gl/zpass.hpp"
 
 namespace umbrage::techniques {
 namespace {
@@ -145,6 +148,66 @@ TEST(Extrusions, GiveTheSameMasksBitByBit) {
             EXPECT_EQ(shading->stats.lights[0].volumeTriangles, expected->stats.lights[0].volumeTriangles);
           }
         }
+  }
+}
+
+// What a driver with depth bounds would leave out: wherever the depth lies outside of them, z-fail and z-pass from 0 end with no shadow. The bounds
+// are asked of no driver here, the masks are what all others draw.
+TEST(DepthBounds, LeaveOutNoShadow) {
+  scene::Scene s = village();
+  s.instances.push_back(box({40, 50, 0}, {2, 2, 2}));
+  s.instances.back().casts = false;
+  const auto geometry = shadow::makeGeometry(s);
+  const Vec3& origin = geometry->surfaces.origin;
+  auto technique = openGlTechniques()[zFail].create();
+  if (!technique) GTEST_SKIP() << "no graphics: " << technique.error().text();
+  ASSERT_TRUE((*technique)->prepare(geometry));
+  std::size_t outside = 0, dark = 0;
+  for (const Eye& eye : eyes())
+    for (const Light3& light : lights()) {
+      const auto shading = (*technique)->shade({eye.camera, std::span(&light.light, 1)});
+      ASSERT_TRUE(shading);
+      const render::View view = render::viewOf(eye.camera, geometry->surfaces.bounds.radius());
+      const Vec4 lamp = scene::homogeneous(light.light, origin);
+      Box3 counted = geometry->surfaces.bounds;
+      counted.add(view.eye - origin);
+      const auto distances = render::volumeDistances(view, geometry->casters.bounds, counted, lamp, origin);
+      const auto facing = shadow::visibleSideFacesLight(geometry->surfaces, Vec4(view.eye - origin, 1.0), lamp);
+      for (std::size_t i = 0; i < shading->surface.depth.size(); ++i) {
+        const std::uint32_t seen = shading->surface.triangle.pixels()[i];
+        const float distance = shading->surface.depth.pixels()[i];
+        if (seen == shadow::kNoTriangle || facing[seen] == 0) continue;
+        if (distance >= distances.nearest && distance <= distances.farthest) {
+          dark += shading->masks[0].light.pixels()[i] == 0;
+          continue;
+        }
+        ++outside;
+        if (std::holds_alternative<scene::SpotLight>(light.light.shape)) continue;  // dark outside its cone
+        ASSERT_EQ(shading->masks[0].light.pixels()[i], 255) << eye.name << ", " << light.name << " at " << distance;
+      }
+    }
+  EXPECT_GT(outside, 1000u);
+  EXPECT_GT(dark, 1000u);
+}
+
+// Where both faces cannot be counted at once, by the driver's word or by choice.
+TEST(TwoSidedStencil, IsNotMissedWhereItIsMissing) {
+  const auto geometry = shadow::makeGeometry(village());
+  const auto without = [](gl::Quirks& quirks) { quirks.twoSidedStencil = false; };
+  const auto plain = gl::Context::createHeadless();
+  const auto poor = gl::Context::createHeadless({.adjust = without});
+  if (!plain || !poor) GTEST_SKIP() << "no graphics";
+  EXPECT_TRUE((*plain)->quirks().twoSidedStencil);
+  for (const auto make : {makeZFail, makeZPass}) {
+    const auto both = make(*plain, {}), faceByFace = make(*poor, {});
+    ASSERT_TRUE(both->prepare(geometry) && faceByFace->prepare(geometry));
+    for (const Eye& eye : eyes())
+      for (const Light3& light : lights()) {
+        const shadow::Frame frame{eye.camera, std::span(&light.light, 1)};
+        const auto a = both->shade(frame), b = faceByFace->shade(frame);
+        ASSERT_TRUE(a && b);
+        EXPECT_EQ(a->masks[0].light, b->masks[0].light) << eye.name << ", " << light.name;
+      }
   }
 }
 
