@@ -19,7 +19,12 @@ Result<Drawing> draw(const std::string& technique, const std::shared_ptr<const s
   drawing.createMs = watch.lap();
   if (const auto prepared = chosen->technique->prepare(geometry); !prepared) return tl::unexpected(prepared.error());
   drawing.prepareMs = watch.lap();
-  auto shading = chosen->technique->shade({view.camera, view.lights, view.silhouettes, view.fill, view.extrusion});
+  auto shading = chosen->technique->shade({.camera = view.camera,
+                                           .lights = view.lights,
+                                           .silhouettes = view.silhouettes,
+                                           .fill = view.fill,
+                                           .extrusion = view.extrusion,
+                                           .detailed = view.detailed});
   if (!shading) return tl::unexpected(shading.error());
   drawing.shadeMs = watch.lap();
   drawing.shading = std::move(*shading);

@@ -66,6 +66,7 @@ struct View {
   shadow::FinderKind silhouettes = shadow::FinderKind::automatic;
   shadow::VolumeFill fill = shadow::VolumeFill::reduced;
   shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
+  bool detailed = false;  ///< statistics that take time of their own are wanted
   std::string cameraReason;
   std::string lightReason;
 };

@@ -72,6 +72,7 @@ Result<image::RgbImage> makePicture(const RenderOptions& options, const View& vi
   if (options.picture.empty()) return image::RgbImage();
   if (options.view.antialias == 1) return paint(options, view, *geometry, drawing);
   View large = view;
+  large.detailed = false;
   large.camera.width *= options.view.antialias;
   large.camera.height *= options.view.antialias;
   const auto fine = draw(options.technique, geometry, large, console);
@@ -94,8 +95,9 @@ Result<Outcome> run(const RenderOptions& options, const Console& console) {
   auto scene = loadScene(options.scene, console);
   if (!scene) return tl::unexpected(scene.error());
   const double loadMs = watch.lap();
-  const auto view = makeView(std::move(*scene), options.view);
+  auto view = makeView(std::move(*scene), options.view);
   if (!view) return tl::unexpected(view.error());
+  view->detailed = !options.stats.empty();
   // Several lights have a mask each, whose names are known only now.
   if (const auto open = checkOutputs(files(options, view->lights.size()), options.scene.file); !open)
     return tl::unexpected(open.error());

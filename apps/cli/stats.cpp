@@ -1,6 +1,7 @@
 #include "stats.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -25,16 +26,56 @@ Json castersJson(const shadow::CasterSet& casters) {
           {"components", casters.componentCount},       {"topology", mesh::name(casters.report.topology)}};
 }
 
-Json lightJson(const scene::Light& light, const shadow::LightStats& stats, const shadow::LightMask& mask) {
+/// How many parts of the scene are named for one choice.
+constexpr std::size_t kNamed = 8;
+
+/// The part of the scene that a connected component of the casters belongs to (the first, where parts touch).
+std::vector<std::string_view> partNames(const scene::Scene& scene, const shadow::Geometry& geometry) {
+  const shadow::CasterSet& casters = geometry.casters;
+  std::vector<std::string_view> names(casters.componentCount);
+  for (std::size_t t = casters.triangles.size(); t-- > 0;)
+    names[casters.componentOf[t]] = scene.instances[geometry.surfaces.instances[casters.surfaceTriangle[t]]].name;
+  return names;
+}
+
+/// The first casters of one choice, one of each part of the scene.
+Json firstOf(shadow::CasterChoice choice, const std::vector<shadow::CasterChoice>& choices,
+             const std::vector<std::string_view>& names) {
+  Json first = Json::array();
+  std::set<std::string_view> named;
+  for (std::size_t c = 0; c < choices.size() && first.size() < kNamed; ++c)
+    if (choices[c] == choice && named.insert(names[c]).second) first.push_back({{"caster", c}, {"part", names[c]}});
+  return first;
+}
+
+/// Which casters were treated how, and why: counts, and the first few of each kind.
+Json choicesJson(const std::vector<shadow::CasterChoice>& choices, const std::vector<std::string_view>& names) {
+  Json list = Json::array();
+  for (std::size_t kind = 0; kind < shadow::kCasterChoices; ++kind) {
+    const auto choice = static_cast<shadow::CasterChoice>(kind);
+    const auto count = static_cast<std::size_t>(std::count(choices.begin(), choices.end(), choice));
+    if (count == 0) continue;
+    list.push_back({{"choice", shadow::name(choice)},
+                    {"reason", shadow::reason(choice)},
+                    {"count", count},
+                    {"first", firstOf(choice, choices, names)}});
+  }
+  return list;
+}
+
+Json lightJson(const scene::Light& light, const shadow::LightStats& stats, const shadow::LightMask& mask,
+               const std::vector<std::string_view>& parts) {
   return {{"light", light.name},
           {"technique", stats.method},
           {"reason", stats.reason},
+          {"casters", choicesJson(stats.choices, parts)},
           {"casters_by_zfail", stats.castersByZFail},
           {"eye_count", stats.eyeCount},
           {"silhouette_finder", stats.finder.empty() ? Json(nullptr) : Json(stats.finder)},
           {"edges_tested", stats.edgesTested},
           {"silhouette_edges", stats.silhouetteEdges},
           {"volume_triangles", stats.volumeTriangles},
+          {"volume_fragments", stats.volumeFragments ? Json(*stats.volumeFragments) : Json(nullptr)},
           {"left_out",
            {{"casters_in_shadow", stats.castersHidden},
             {"casters_behind", stats.castersBehind},
@@ -77,8 +118,9 @@ std::string statsJson(const Stats& stats) {
                     {"fov_degrees", camera.fovY.degrees()}};
   json["light_reason"] = stats.view.lightReason;
   json["lights"] = Json::array();
+  const auto parts = partNames(stats.view.scene, stats.geometry);
   for (std::size_t i = 0; i < shading.stats.lights.size(); ++i)
-    json["lights"].push_back(lightJson(stats.view.lights[i], shading.stats.lights[i], shading.masks[i]));
+    json["lights"].push_back(lightJson(stats.view.lights[i], shading.stats.lights[i], shading.masks[i], parts));
   json["phases_ms"] = phasesJson(stats.phases);
   json["shade_phases_ms"] = phasesJson(shading.stats.phases);
   json["total_ms"] = total(stats.phases);
@@ -94,6 +136,9 @@ std::string statsText(const Stats& stats) {
   for (const auto& light : stats.drawing.shading.stats.lights)
     if (!light.finder.empty())
       text += fmt::format("silhouette {} of {} tested edges ({})\n", light.silhouetteEdges, light.edgesTested, light.finder);
+  for (const auto& light : stats.drawing.shading.stats.lights)
+    if (light.volumeFragments)
+      text += fmt::format("volumes    {} triangles, {} pixels filled\n", light.volumeTriangles, *light.volumeFragments);
   for (const auto& phase : stats.phases) text += fmt::format("{:<10} {:8.1f} ms\n", phase.name, phase.milliseconds);
   for (const auto& phase : stats.drawing.shading.stats.phases)
     text += fmt::format("  {:<18} {:8.1f} ms\n", phase.name, phase.milliseconds);

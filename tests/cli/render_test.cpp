@@ -187,6 +187,30 @@ TEST_F(RenderCommand, OnlyNamedPartsCast) {
   EXPECT_EQ(lit({"--casters", "wall*", "--casters", "roof*"}), both);
 }
 
+// Every caster has its choice and the reason, and filling has its price; a picture without --stats pays for neither.
+TEST_F(RenderCommand, StatsTellTheChoiceForEveryCaster) {
+  for (const std::string technique : {"zpass", "zfail", "zmixed", "zp_plus"}) {
+    const Ran ran = umbrage({"render", "sample:industrial", "--technique", technique, "--stats", file("s.json"), "--light",
+                             "point:20,-30,60", "--light", "directional:1,1,-2", "--size", "200x150"});
+    if (ran.code == 4) GTEST_SKIP() << "no graphics here: " << ran.err;
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const auto stats = readJson(file("s.json"));
+    ASSERT_THAT(stats["lights"], SizeIs(2));
+    for (const auto& light : stats["lights"]) {
+      int sum = 0;
+      for (const auto& choice : light["casters"]) {
+        sum += choice["count"].get<int>();
+        EXPECT_FALSE(choice["reason"].get<std::string>().empty());
+        EXPECT_GE(choice["count"].get<std::size_t>(), choice["first"].size());
+        ASSERT_FALSE(choice["first"].empty());
+        EXPECT_FALSE(choice["first"][0]["part"].get<std::string>().empty());
+      }
+      EXPECT_EQ(sum, stats["casters"]["components"].get<int>()) << technique;
+      EXPECT_GT(light["volume_fragments"].get<int>(), 1000);
+    }
+  }
+}
+
 // Which finder runs is said, and changes no byte of the mask.
 TEST_F(RenderCommand, EverySilhouetteFinderGivesTheSameMask) {
   std::string mask;

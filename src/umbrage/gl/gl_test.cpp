@@ -5,6 +5,7 @@
 #include "umbrage/gl/debug_log.hpp"
 #include "umbrage/gl/pass.hpp"
 #include "umbrage/gl/read_back.hpp"
+#include "umbrage/gl/sample_count.hpp"
 
 namespace umbrage::gl {
 namespace {
@@ -161,6 +162,25 @@ void main() { id = gl_FragCoord.z < 0.4 ? 1u : 2u; })");
   // Vertices 3 to 5: the triangle at depth 0.5.
   EXPECT_EQ(readIds(scope, *target, kSize, kSize)(2, kSize - 3), 2u);
   EXPECT_TRUE(log.messages().empty()) << log.messages().front();
+}
+
+TEST(SampleCount, CountsWhatTrianglesCoverEachByItself) {
+  NEEDS_GRAPHICS(fixture);
+  const auto depth = Texture::make(Format::depth32fStencil8, kSize, kSize);
+  const auto target = Framebuffer::make(nullptr, &*depth);
+  ASSERT_TRUE(target);
+  const Program program(kVertex, kFragment);
+  const VertexArray nothing;
+  HostScope scope;
+  PassState state = plain();
+  state.scissor = Rect{0, 0, 5, kSize};
+  SampleCount count(scope);
+  {
+    Pass pass(scope, *target, state);
+    pass.use(program);
+    pass.draw(nothing, 6);
+  }
+  EXPECT_EQ(count.stop(), 2u * 5u * kSize);
 }
 
 TEST(ReadBack, PutsTheTopRowFirst) {

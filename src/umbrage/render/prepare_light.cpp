@@ -82,6 +82,19 @@ bool dropsParts(const VolumeRequest& request) { return request.tiles != nullptr 
 
 constexpr std::uint32_t kComponentsWorthThreads = 1024;
 
+// For LightStats::choices, where they are wanted: what became of the components that are flagged.
+void tell(shadow::LightStats& stats, const Components& flags, shadow::CasterChoice choice) {
+  for (std::size_t c = 0; c < stats.choices.size(); ++c)
+    if (flags[c] != 0) stats.choices[c] = choice;
+}
+
+void beginChoices(const VolumeRequest& request, shadow::LightStats& stats) {
+  const bool zFail = request.counting == Counting::zFail;
+  if (request.detailed)
+    stats.choices.assign(request.casters().componentCount,
+                         zFail ? shadow::CasterChoice::zFail : shadow::CasterChoice::zPass);
+}
+
 // Which components need not be drawn.
 Components findUseless(const VolumeRequest& request, const Shape& shape, shadow::LightStats& stats) {
   const shadow::CasterSet& casters = request.casters();
@@ -92,10 +105,12 @@ Components findUseless(const VolumeRequest& request, const Shape& shape, shadow:
       for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) useless[c] = shape.holdsReceivers(c) ? 0 : 1;
     });
     stats.castersBehind = static_cast<std::size_t>(std::count(useless.begin(), useless.end(), 1));
+    tell(stats, useless, shadow::CasterChoice::noReceiver);
   }
   if (request.options.hiddenCasters) {
     const shadow::HiddenCasters hidden = shadow::findHiddenCasters(casters, request.light, useless);
     stats.castersHidden = hidden.count;
+    tell(stats, hidden.component, shadow::CasterChoice::hidden);
     for (std::uint32_t c = 0; c < casters.componentCount; ++c) useless[c] |= hidden.component[c];
   }
   return useless;
@@ -189,6 +204,14 @@ std::vector<std::uint32_t> passSides(const VolumeRequest& request, const Part& p
   return shadow::extrude(request.casters(), part.silhouette, options).sides;
 }
 
+// What was left out before has no part in the silhouette any more, but a box that may lie anywhere.
+void tellByZFail(const VolumeRequest& request, const Part& part, shadow::LightStats& stats) {
+  const bool between = request.counting == Counting::zMixed;
+  for (std::size_t c = 0; c < stats.choices.size(); ++c)
+    if (part.atEye.byZFail[c] != 0 && stats.choices[c] == shadow::CasterChoice::zPass)
+      stats.choices[c] = between ? shadow::CasterChoice::zFailBetween : shadow::CasterChoice::zFailTouched;
+}
+
 void addGroup(LightVolume& out, const VolumeRequest& request, const Part& part, const Shape& shape,
               shadow::LightStats& stats) {
   VolumeGroup group{.eyeCount = part.atEye.count, .nearCasters = {}, .passSides = {}, .failSides = {}, .failCaps = {}};
@@ -206,7 +229,10 @@ void addGroup(LightVolume& out, const VolumeRequest& request, const Part& part, 
                                                    .sidesAsEdges = sidesAsEdges(request)});
     group.failSides = append(out.indices, std::move(volume.sides));
     group.failCaps = append(out.indices, std::move(volume.caps));
-    if (!zFail) stats.castersByZFail += part.atEye.byZFailCount;
+    if (!zFail) {
+      stats.castersByZFail += part.atEye.byZFailCount;
+      tellByZFail(request, part, stats);
+    }
   }
   stats.eyeCount += part.atEye.count;
   out.groups.push_back(group);
@@ -236,6 +262,7 @@ LightVolume prepareVolume(const VolumeRequest& request, shadow::LightStats& stat
   stats.silhouetteEdges = whole.edges.size();
   end("silhouette");
 
+  beginChoices(request, stats);
   Shape shape(request);
   shape.endVolumes(request.options.finite ? shadow::sidesAtEye(casters, whole, request.eye) : Components());
   whole = shadow::without(casters, std::move(whole), findUseless(request, shape, stats));
@@ -273,9 +300,11 @@ LightVolume prepareOnCard(const VolumeRequest& request, shadow::LightStats& stat
   stats.edgesTested = casters.edges.size();
   LightVolume out{.light = request.light, .counting = request.counting};
   out.groups.emplace_back();
+  beginChoices(request, stats);
   Shape shape(request);
   const Components between = shadow::boxesBetween(casters, request.light, request.eye);
   shape.endVolumes(between);
+  if (request.counting != Counting::zFail) tell(stats, between, shadow::CasterChoice::zFailBetween);
   const Components useless = findUseless(request, shape, stats);
   for (std::uint32_t c = 0; c < casters.componentCount; ++c) {
     const Role role = between[c] != 0                          ? Role::failAtEye

@@ -64,6 +64,7 @@ struct VolumeRequest {
   Box3 receivers;                        ///< all that can receive shadow; needed for finite volumes
   const ReceiverTiles* tiles = nullptr;  ///< needed to leave out hidden parts
   const View* view = nullptr;            ///< needed for zPassPlus
+  bool detailed = false;                 ///< LightStats::choices are wanted
 
   [[nodiscard]] const shadow::CasterSet& casters() const { return finder.casters(); }
 };

@@ -18,6 +18,7 @@
 #include <umbrage_shaders/volume_vert.hpp>
 
 #include "umbrage/base/check.hpp"
+#include "umbrage/gl/sample_count.hpp"
 #include "umbrage/shadow/surface_buffer.hpp"
 
 namespace umbrage::render {
@@ -137,6 +138,24 @@ void run(gl::HostScope& scope, const PassList& list, const RunInput& input, cons
     gl::finish();
     ended(step.phase.c_str());
   }
+}
+
+std::vector<std::uint64_t> countFragments(gl::HostScope& scope, const PassList& list, const RunInput& input) {
+  std::vector<std::uint64_t> fragments(input.lights.size(), 0);
+  for (const PassStep& step : list.steps) {
+    if (step.draw != Draw::passSides && step.draw != Draw::failSides && step.draw != Draw::failCaps) continue;
+    const auto light = static_cast<std::size_t>(step.light);
+    gl::PassState state = step.state;
+    state.depth.test = state.stencil.test = false;
+    state.depthBounds.reset();
+    gl::SampleCount count(scope);
+    {
+      gl::Pass pass(scope, targetOf(step, scope, input), state);
+      draw(pass, step, input, &input.lights[light]);
+    }
+    fragments[light] += count.stop();
+  }
+  return fragments;
 }
 
 }  // namespace umbrage::render

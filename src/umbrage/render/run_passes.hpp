@@ -48,4 +48,9 @@ struct RunInput {
 /// Executes a plan. `ended` is called, after a finish, whenever a phase ends; without it nothing waits.
 void run(gl::HostScope& scope, const PassList& list, const RunInput& input, const PhaseEnd& ended = {});
 
+/// Per light: the pixels that the triangles of its volumes cover where `list` draws them, each triangle by itself. Draws them again without any
+/// test and writes nothing. Waits for the driver. REQUIRES: `list` has been run with this input.
+[[nodiscard]] std::vector<std::uint64_t> countFragments(gl::HostScope& scope, const PassList& list,
+                                                        const RunInput& input);
+
 }  // namespace umbrage::render

@@ -194,11 +194,16 @@ class StencilTechnique final : public GlTechnique {
       auto tiles = addReceivers(scope, i, frame.lights[i], view, camera, volumes, target, input, ended);
       if (!tiles) return tl::unexpected(tiles.error());
       auto plan =
-          addVolume(scope, own_->lights[i], frame.lights[i], view, volumes, *tiles, placement, stats.lights.back(), ended);
+          addVolume(scope, own_->lights[i], frame.lights[i], view, volumes, frame.detailed, *tiles, placement, stats.lights.back(), ended);
       if (!plan) return tl::unexpected(plan.error());
       plans.push_back(*plan);
     }
-    run(scope, planLights(placement, view.reversed, plans, product), input, ended);
+    const PassList list = planLights(placement, view.reversed, plans, product);
+    run(scope, list, input, ended);
+    if (!frame.detailed) return {};
+    const auto fragments = countFragments(scope, list, input);
+    for (std::size_t i = 0; i < stats.lights.size(); ++i) stats.lights[i].volumeFragments = fragments[i];
+    if (ended) ended("fragments");
     return {};
   }
 
@@ -295,7 +300,7 @@ class StencilTechnique final : public GlTechnique {
     }
   }
 
-  Result<LightPlan> addVolume(gl::HostScope& scope, GpuLight& gpu, const scene::Light& light, const View& view, const VolumeOptions& volumes,
+  Result<LightPlan> addVolume(gl::HostScope& scope, GpuLight& gpu, const scene::Light& light, const View& view, const VolumeOptions& volumes, bool detailed,
                               const std::optional<ReceiverTiles>& tiles, const gl::PassState& placement,
                               shadow::LightStats& stats, const PhaseEnd& ended) {
     const shadow::CasterSet& casters = geometry_->casters;
@@ -312,7 +317,8 @@ class StencilTechnique final : public GlTechnique {
                                 .options = volumes,
                                 .receivers = receivers,
                                 .tiles = tiles ? &*tiles : nullptr,
-                                .view = &view};
+                                .view = &view,
+                                .detailed = detailed};
     LightVolume volume;
     const auto onCard = extrudeOnCard(scope, gpu, request, volume, stats, ended);
     if (!onCard) return tl::unexpected(onCard.error());

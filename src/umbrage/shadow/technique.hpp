@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "umbrage/base/error.hpp"
@@ -60,12 +61,28 @@ struct Frame {
   FinderKind silhouettes = FinderKind::automatic;  ///< who finds them, where the technique needs silhouettes; changes no pixel
   VolumeFill fill = VolumeFill::reduced;
   std::optional<Extrusion> extrusion = {};  ///< none: as the technique was made
+  bool detailed = false;  ///< LightStats::choices and volumeFragments are wanted, which take time of their own
 };
 
 struct PhaseTime {
   std::string name;
   double milliseconds = 0.0;
 };
+
+/// What became of one component of the casters, and why.
+enum class CasterChoice : std::uint8_t {
+  zPass,         ///< counted before the surfaces
+  zFail,         ///< counted behind the surfaces, as all are
+  zFailTouched,  ///< since the eye touches a side of its volume, or the caster itself
+  zFailBetween,  ///< since it may lie between the eye and the light
+  hidden,        ///< left out, wholly in the shadow of a convex solid
+  noReceiver,    ///< left out, no surface that is seen and faces the light lies in its volume
+};
+inline constexpr std::size_t kCasterChoices = 6;
+/// "zpass", "zfail" or "left out".
+[[nodiscard]] std::string_view name(CasterChoice choice);
+/// In words, for people.
+[[nodiscard]] std::string_view reason(CasterChoice choice);
 
 /// What was done for one light, for --stats.
 struct LightStats {
@@ -82,6 +99,10 @@ struct LightStats {
   std::size_t castersBehind = 0;   ///< components whose volumes touch no receiver's line of sight
   std::size_t sidesBehind = 0;     ///< further single sides
   std::size_t endlessCasters = 0;  ///< components whose volumes no plane can end
+  // When the frame is `detailed`, of techniques of shadow volumes:
+  std::vector<CasterChoice> choices;  ///< per component
+  /// Pixels that the volumes' triangles cover where they are drawn, each triangle by itself: the cost of filling them.
+  std::optional<std::uint64_t> volumeFragments;
 };
 
 struct FrameStats {

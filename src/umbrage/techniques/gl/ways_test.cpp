@@ -151,6 +151,72 @@ TEST(Extrusions, GiveTheSameMasksBitByBit) {
   }
 }
 
+std::size_t countOf(const shadow::LightStats& stats, shadow::CasterChoice choice) {
+  return static_cast<std::size_t>(std::count(stats.choices.begin(), stats.choices.end(), choice));
+}
+
+// The choice of every caster, which must sum up to what is counted anyway, and the cost of filling.
+TEST_P(Ways, TellTheChoiceOfEveryCasterWhenAsked) {
+  const auto geometry = shadow::makeGeometry(village());
+  ASSERT_TRUE(technique_->prepare(geometry));
+  using Choice = shadow::CasterChoice;
+  for (const Eye& eye : eyes())
+    for (const Light3& light : lights()) {
+      shadow::Frame frame{.camera = eye.camera, .lights = std::span(&light.light, 1)};
+      const auto without = technique_->shade(frame);
+      frame.detailed = true;
+      const auto with = technique_->shade(frame);
+      ASSERT_TRUE(without && with);
+      EXPECT_EQ(with->masks[0].light, without->masks[0].light);
+      EXPECT_TRUE(without->stats.lights[0].choices.empty());
+      EXPECT_FALSE(without->stats.lights[0].volumeFragments);
+      const shadow::LightStats& stats = with->stats.lights[0];
+      ASSERT_EQ(stats.choices.size(), geometry->casters.componentCount);
+      const std::size_t all = stats.choices.size(), leftOut = stats.castersHidden + stats.castersBehind;
+      const bool byZFail = GetParam().technique == zFail;
+      EXPECT_EQ(countOf(stats, Choice::hidden), stats.castersHidden);
+      EXPECT_EQ(countOf(stats, Choice::noReceiver), stats.castersBehind);
+      EXPECT_EQ(countOf(stats, Choice::zFail), byZFail ? all - leftOut : 0);
+      EXPECT_EQ(countOf(stats, Choice::zFailTouched) + countOf(stats, Choice::zFailBetween), stats.castersByZFail);
+      EXPECT_EQ(countOf(stats, Choice::zPass), byZFail ? 0 : all - leftOut - stats.castersByZFail);
+      ASSERT_TRUE(stats.volumeFragments);
+      if (stats.volumeTriangles == 0) {
+        EXPECT_EQ(*stats.volumeFragments, 0u);
+      }
+    }
+}
+
+// Seen straight from above under a sun overhead, the cap of a sheet covers its pixels, and its sides, which run towards the point at infinity in the picture's middle, cover
+// them once more.
+TEST(VolumeFragments, AreTwiceThePixelsOfASheetUnderTheSun) {
+  scene::Scene s;
+  s.materials = {{}};
+  auto sheet = std::make_shared<mesh::Mesh>();
+  sheet->positions = {{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+  sheet->triangles = {{0, 1, 2}, {0, 2, 3}};
+  s.meshes = {sheet};
+  s.instances.push_back({"sheet", 0});
+  const auto geometry = shadow::makeGeometry(scene::withGround(s, 0.0));
+  auto technique = openGlTechniques()[zFail].create();
+  if (!technique) GTEST_SKIP() << "no graphics: " << technique.error().text();
+  ASSERT_TRUE((*technique)->prepare(geometry));
+  const scene::Light sun{scene::DirectionalLight{{0.0, 0.0, -1.0}}};
+  scene::Camera camera = cameraFrom({0, 0, 1000}, {0, 0, 0});
+  camera.up = {0, 1, 0};
+  camera.fovY = Angle::radians(0.004);
+  camera.width = camera.height = 100;
+  const auto shading =
+      (*technique)
+          ->shade(
+              {.camera = camera, .lights = std::span(&sun, 1), .fill = shadow::VolumeFill::plain, .detailed = true});
+  ASSERT_TRUE(shading);
+  std::size_t pixels = 0;
+  for (const std::uint32_t t : shading->surface.triangle.pixels())
+    pixels += t != shadow::kNoTriangle && geometry->surfaces.casts[t] != 0;
+  EXPECT_GT(pixels, 2000u);
+  EXPECT_EQ(*shading->stats.lights[0].volumeFragments, 2 * pixels);
+}
+
 // What a driver with depth bounds would leave out: wherever the depth lies outside of them, z-fail and z-pass from 0 end with no shadow. The bounds
 // are asked of no driver here, the masks are what all others draw.
 TEST(DepthBounds, LeaveOutNoShadow) {
