@@ -12,6 +12,7 @@ namespace umbrage::cli {
 [[nodiscard]] Run addCompare(CLI::App& app);
 [[nodiscard]] Run addProfile(CLI::App& app);
 [[nodiscard]] Run addOutline(CLI::App& app);
+[[nodiscard]] Run addEnvelope(CLI::App& app);
 [[nodiscard]] Run addSample(CLI::App& app);
 
 }  // namespace umbrage::cli

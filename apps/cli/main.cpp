@@ -30,6 +30,7 @@ constexpr Command kCommands[] = {
     {"compare", "Two techniques on one picture: which pixels differ", addCompare},
     {"profile", "The shadows of a day: every step over the scene, and the time in shadow", addProfile},
     {"outline", "Shadows on a horizontal plane as exact outlines (GeoJSON, DXF, SVG)", addOutline},
+    {"envelope", "The ground that is in shadow at some moment of a period, as exact outlines", addEnvelope},
     {"sample", "Writes one of the scenes that come with the program", addSample},
 };
 

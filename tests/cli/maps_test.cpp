@@ -138,6 +138,29 @@ TEST_F(Maps, RefusalsSayWhy) {
   EXPECT_THAT(files(), ElementsAre("box.off", "metres.geojson"));
 }
 
+TEST_F(Maps, EnvelopeHoldsEveryMoment) {
+  const auto box = writeBox();
+  const Ran ran =
+      run({"envelope", box, "--from", "10:00", "--to", "15:00", "--merged", "-o", file("out.geojson")}, kVienna);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Json map = Json::parse(read("out.geojson"));
+  const double whole = map.at("features").at(0).at("properties").at("area_m2").get<double>();
+  EXPECT_THAT(map.at("umbrage").at("Error bound").get<std::string>(), HasSubstr("within"));
+  ASSERT_EQ(
+      run({"outline", box, "--from", "10:00", "--to", "15:00", "--step", "30", "--merged", "-o", file("out.geojson")},
+          kVienna)
+          .code,
+      0);
+  for (const Json& feature : Json::parse(read("out.geojson")).at("features"))
+    EXPECT_LT(feature.at("properties").at("area_m2").get<double>(), whole);
+  const Ran night = run({"envelope", box, "--from", "01:00", "--to", "03:00", "-o", file("out.geojson")}, kVienna);
+  EXPECT_EQ(night.code, 2);
+  EXPECT_THAT(night.err, HasSubstr("never 3 degrees above the horizon"));
+  const Ran day = run({"envelope", box, "-o", file("out.geojson")}, kVienna);
+  EXPECT_EQ(day.code, 0);
+  EXPECT_THAT(day.err, HasSubstr("--min-elevation"));
+}
+
 TEST_F(Maps, AFarPlaceIsWorthAWarning) {
   const Ran ran = run({"outline", writeSquare(), "--at", "12:00", "-o", file("out.svg")},
                       {"--lat", "35", "--lon", "139", "--date", "2026-09-18", "--tz", "solar"});
