@@ -72,8 +72,19 @@ class MovingCasters : public ::testing::Test {
   void mark(const scene::Light& light, Counting counting = Counting::zPass) {
     // Nothing but the wall is in the depth buffer, so casters in the view are to be counted by z-fail.
     const auto marked = shadows_->mark(light, {kView, projection_}, posed_,
-                                       {.counting = counting, .castersInDepth = counting == Counting::zPass});
+                                       {.counting = counting, .castersInDepth = counting == Counting::zPass,
+                                        .receivers = receivers_});
     ASSERT_TRUE(marked) << marked.error().text();
+  }
+
+  // The wall, as far as it is seen.
+  Box3 wall() const {
+    const Mat4 back = glm::inverse(kView);
+    Box3 box;
+    for (const double x : {-1.0, 1.0})
+      for (const double y : {-1.0, 1.0})
+        box.add(Vec3(back * Vec4(kWallAt * Vec3(x / projection_[0][0], y / projection_[1][1], -1.0), 1.0)));
+    return box;
   }
 
   // Pixels of the wall that brute force is sure of and the stencil has otherwise.
@@ -115,6 +126,7 @@ class MovingCasters : public ::testing::Test {
   std::optional<gl::CurrentContext> current_;
   std::optional<StencilShadows> shadows_;
   std::vector<PosedCasters> posed_;
+  Box3 receivers_;  ///< empty: volumes reach to infinity
   std::shared_ptr<const shadow::CasterSet> box_ = castersOf(shapes::box({-1, -0.5, -0.8}, {0.7, 0.5, 0.9}));
 };
 
@@ -172,6 +184,7 @@ TEST_F(MovingCasters, ThrowTheShadowsOfWhereTheyStand) {
       posed_.push_back({shapes[static_cast<std::size_t>(i)], pose});
       mirroredOnes += mirrors(posed_.back());
     }
+    receivers_ = frame % 2 == 0 ? Box3() : wall();
     for (const scene::Light& light : {kSun, kLamp}) {
       mark(light, Counting::zFail);
       wrong += wrongPixels(light, shadowed);
@@ -188,10 +201,56 @@ TEST_F(MovingCasters, AreCountedFromAnEyeInTheirShadows) {
   posed_ = {{box_, at(kEye + Vec3(0.2, -3, 0.4))},
             {box_, glm::scale(at(kEye + Vec3(0.1, -5, 0.7)), Vec3(1, -1, 1))},
             {box_, at(kEye + Vec3(0.25, -1.5, 0.2)) * turned(0.4, {0, 1, 0})}};
-  std::size_t shadowed = 0;
-  mark(behind, Counting::zPass);
-  EXPECT_EQ(wrongPixels(behind, shadowed), 0u);
-  EXPECT_GT(shadowed, 100u);
+  for (const Box3& receivers : {Box3(), wall()}) {
+    receivers_ = receivers;
+    std::size_t shadowed = 0;
+    mark(behind, Counting::zPass);
+    EXPECT_EQ(wrongPixels(behind, shadowed), 0u);
+    EXPECT_GT(shadowed, 100u);
+  }
+}
+
+// Casters placed so that the eye lies on a side of their volumes, or hardly beside it.
+TEST_F(MovingCasters, MayHaveSidesAtTheEye) {
+  const Mat4 pose = turned(0.4, {0.3, 0.2, 1});
+  std::size_t attacks = 0, shadowed = 0;
+  for (const scene::Light& light : {kSun, scene::Light{scene::PointLight{kEye + Vec3(0.3, -9, 1.5)}}}) {
+    for (const double distance : {0.0, 1e-9, -3e-8, 1e-7, -1e-6, 1e-5, -1e-3}) {
+      const Vec4 seenFrom = scene::homogeneous(light, Vec3(0.0));
+      const auto edges = shadow::findSilhouette(*box_, lightFrom({box_, pose}, light)).edges;
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        const auto world = [&](std::uint32_t p) { return Vec3(pose * Vec4(box_->position(p) + box_->origin, 1.0)); };
+        const Vec3 a = world(edges[i].a), b = world(edges[i].b), middle = glm::mix(a, b, 0.37);
+        // The edge's point comes to lie a third of the way from the light to the eye, or two units before it.
+        const Vec3 place = seenFrom.w == 0.0 ? kEye + 2.0 * glm::normalize(Vec3(seenFrom))
+                                             : glm::mix(Vec3(seenFrom), kEye, 0.7);
+        const Vec3 normal = glm::normalize(glm::cross(b - a, kEye - place));
+        posed_ = {{box_, at(place - middle + distance * normal) * pose}};
+        for (const Box3& receivers : {Box3(), wall()})
+          for (const Counting counting : {Counting::zFail, Counting::zPass}) {
+            receivers_ = receivers;
+            mark(light, counting);
+            EXPECT_EQ(wrongPixels(light, shadowed), 0u)
+                << name(counting) << ", edge " << i << " at " << distance << (receivers.empty() ? "" : ", finite");
+            ++attacks;
+          }
+      }
+    }
+  }
+  EXPECT_GT(attacks, 40u);
+  EXPECT_GT(shadowed, 1000u);
+}
+
+// What the receivers are costs no silhouette twice, and ends the volumes.
+TEST_F(MovingCasters, HaveVolumesThatEndBehindTheReceivers) {
+  posed_ = {{box_, at({0, 4, 4})}, {box_, at({3, 5, 3})}};
+  receivers_ = wall();
+  EXPECT_EQ(workOf([&] { mark(kSun, Counting::zFail); }), Work(1, 1)) << "two of one shape under one sun share all";
+  posed_[0].toWorld = at({0.1, 4.3, 4});
+  EXPECT_EQ(workOf([&] { mark(kSun, Counting::zFail); }), Work(0, 0));
+  const auto marked = shadows_->mark(kSun, {kView, projection_}, posed_, {.receivers = receivers_});
+  ASSERT_TRUE(marked);
+  EXPECT_EQ(marked->endlessCasters, 0u);
 }
 
 // More layers than eight bits count, spread over many casters.

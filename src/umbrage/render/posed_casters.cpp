@@ -11,6 +11,11 @@ Mat3 inverseOf(const PosedCasters& posed) {
   return glm::inverse(linear);
 }
 
+Vec3 cornerOf(const Box3& box, int i) {
+  return {(i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
+          (i & 4) != 0 ? box.max.z : box.min.z};
+}
+
 }  // namespace
 
 Vec4 lightFrom(const PosedCasters& posed, const scene::Light& light) {
@@ -24,17 +29,21 @@ Vec3 pointFrom(const PosedCasters& posed, const Vec3& world) {
   return inverseOf(posed) * (world - Vec3(posed.toWorld[3])) - posed.casters->origin;
 }
 
+Box3 boxFrom(const PosedCasters& posed, const Box3& world) {
+  Box3 box;
+  if (world.empty()) return box;
+  for (int i = 0; i < 8; ++i) box.add(pointFrom(posed, cornerOf(world, i)));
+  return box;
+}
+
 bool mirrors(const PosedCasters& posed) { return glm::determinant(Mat3(posed.toWorld)) < 0.0; }
 
 Box3 worldBounds(const PosedCasters& posed) {
   const Box3& own = posed.casters->bounds;
   Box3 box;
   if (own.empty()) return box;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner((i & 1) != 0 ? own.max.x : own.min.x, (i & 2) != 0 ? own.max.y : own.min.y,
-                      (i & 4) != 0 ? own.max.z : own.min.z);
-    box.add(Vec3(posed.toWorld * Vec4(corner + posed.casters->origin, 1.0)));
-  }
+  for (int i = 0; i < 8; ++i)
+    box.add(Vec3(posed.toWorld * Vec4(cornerOf(own, i) + posed.casters->origin, 1.0)));
   return box;
 }
 

@@ -22,6 +22,9 @@ struct PosedCasters {
 /// A point of the world in the casters' own space, relative to casters->origin.
 [[nodiscard]] Vec3 pointFrom(const PosedCasters& posed, const Vec3& world);
 
+/// A box of the world as the casters see it: a box of their own space that holds it, relative to casters->origin.
+[[nodiscard]] Box3 boxFrom(const PosedCasters& posed, const Box3& world);
+
 /// True when the pose turns left into right.
 [[nodiscard]] bool mirrors(const PosedCasters& posed);
 

@@ -1,10 +1,12 @@
 #include "umbrage/render/stencil_shadows.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "umbrage/base/check.hpp"
 #include "umbrage/gl/context.hpp"
+#include "umbrage/render/depth_bounds.hpp"
 #include "umbrage/render/uniforms.hpp"
 
 namespace umbrage::render {
@@ -15,10 +17,11 @@ struct Member {
   const StoredVolume* volume;
   const VolumePart* part;
   const gl::Buffer* positions;
-  const gl::Buffer* view;
+  const PlaceData* place;
   bool mirrored;
   bool byZFail;
   int eyeCount;
+  std::vector<IndexRange> sides;  ///< those that are drawn
 };
 
 /// Members that are counted together.
@@ -30,7 +33,7 @@ struct Group {
     GroupPlan plan;
     for (const Member& m : members) {
       plan.eyeCount += m.eyeCount;
-      (m.byZFail ? plan.failSides : plan.passSides) |= m.part->sides.count > 0;
+      (m.byZFail ? plan.failSides : plan.passSides) |= !m.sides.empty();
       plan.failCaps |= m.byZFail && m.part->caps.count > 0;
     }
     return plan;
@@ -63,17 +66,17 @@ View viewFrom(const PosedCasters& posed, const View& world) {
   return view;
 }
 
-// The part of a member's volume that a step draws; empty when it is not for this member.
-IndexRange rangeFor(Draw draw, const Member& m) {
-  if (draw == Draw::passSides && !m.byZFail) return m.part->sides;
-  if (draw == Draw::failSides && m.byZFail) return m.part->sides;
-  if (draw == Draw::failCaps && m.byZFail) return m.part->caps;
+// The parts of a member's volume that a step draws; none when it is not for this member.
+std::vector<IndexRange> rangesFor(Draw draw, const Member& m) {
+  if (draw == Draw::passSides && !m.byZFail) return m.sides;
+  if (draw == Draw::failSides && m.byZFail) return m.sides;
+  if (draw == Draw::failCaps && m.byZFail && m.part->caps.count > 0) return {m.part->caps};
   return {};
 }
 
 void drawMembers(gl::HostScope& scope, const PassStep& step, const Group& group, bool mirrored,
                  const gl::Program& program) {
-  const auto drawn = [&](const Member& m) { return m.mirrored == mirrored && rangeFor(step.draw, m).count > 0; };
+  const auto drawn = [&](const Member& m) { return m.mirrored == mirrored && !rangesFor(step.draw, m).empty(); };
   if (std::none_of(group.members.begin(), group.members.end(), drawn)) return;
   gl::PassState state = step.state;
   state.frontIsClockwise = state.frontIsClockwise != mirrored;
@@ -81,10 +84,11 @@ void drawMembers(gl::HostScope& scope, const PassStep& step, const Group& group,
   pass.use(program);
   for (const Member& m : group.members) {
     if (!drawn(m)) continue;
-    const IndexRange range = rangeFor(step.draw, m);
-    pass.uniforms(0, *m.view);
+    pass.uniforms(0, m.place->view);
     pass.storage(0, *m.positions);
-    pass.drawIndexed(m.volume->vertices, range.first, range.count);
+    if (step.shader == Shader::finiteVolume) pass.storage(1, m.place->farPoints);
+    for (const IndexRange& range : rangesFor(step.draw, m))
+      pass.drawIndexed(m.volume->vertices, range.first, range.count);
   }
 }
 
@@ -120,22 +124,62 @@ Box3 boxAround(std::span<const PosedCasters> casters) {
   return box;
 }
 
-// How one part is counted from the eye: by z-pass where it may be.
+// The sides of a part without those on which the eye lies, which only components that it touches have.
+std::vector<IndexRange> seenSides(const shadow::CasterSet& casters, const VolumePart& part, const Vec3& eye,
+                                  std::span<const std::uint8_t> touched) {
+  std::vector<IndexRange> runs{{part.sides.first, 0}};
+  for (const shadow::SilhouetteEdge& edge : part.silhouette.edges) {
+    const std::size_t count = static_cast<std::size_t>(std::abs(edge.multiplicity)) * part.indicesPerSide;
+    IndexRange& run = runs.back();
+    if (touched[edge.component] != 0 && shadow::liesOnSide(casters, edge, part.silhouette.light, eye))
+      runs.push_back({run.first + run.count + count, 0});
+    else
+      run.count += count;
+  }
+  std::erase_if(runs, [](const IndexRange& run) { return run.count == 0; });
+  return runs;
+}
+
+// How one part is counted from the eye, by z-pass where it may be; `touched` gains the components that the eye touches.
 Member memberOf(const PosedCasters& posed, const StoredVolume& volume, const VolumePart& part, const Vec3& eye,
-                Counting counting) {
-  Member m{&volume, &part, nullptr, nullptr, mirrors(posed), counting == Counting::zFail, 0};
-  if (m.byZFail) return m;
-  const auto plan = counting == Counting::zMixed ? shadow::chooseAtEye : shadow::countAtEye;
-  const shadow::EyeCount atEye = plan(*posed.casters, part.silhouette, eye);
-  m.byZFail = atEye.byZFailCount > 0;
+                Counting counting, std::vector<std::uint8_t>& touched) {
+  const shadow::CasterSet& casters = *posed.casters;
+  Member m{&volume, &part, nullptr, nullptr, mirrors(posed), counting == Counting::zFail, 0, {}};
+  shadow::EyeCount atEye;
+  if (counting == Counting::zFail)
+    atEye.byZFail = shadow::sidesAtEye(casters, part.silhouette, eye);
+  else
+    atEye = counting == Counting::zMixed ? shadow::chooseAtEye(casters, part.silhouette, eye)
+                                         : shadow::countAtEye(casters, part.silhouette, eye);
+  m.byZFail = m.byZFail || atEye.byZFailCount > 0;
   if (!m.byZFail) m.eyeCount = atEye.count;
+  if (m.byZFail)
+    m.sides = seenSides(casters, part, eye, atEye.byZFail);
+  else if (part.sides.count > 0)
+    m.sides = {part.sides};
+  for (std::size_t c = 0; c < touched.size(); ++c) touched[c] |= atEye.byZFail[c];
   return m;
 }
 
 // What the casters at place i of a call add to it.
 struct Work {
   VolumeMemo& memo;
-  std::vector<gl::Buffer>& views;
+  std::vector<PlaceData>& places;
+  const Box3& receivers;
+
+  [[nodiscard]] bool endsVolumes() const { return !receivers.empty(); }
+
+  // Where its volumes end, without the components that the eye touches.
+  [[nodiscard]] Result<void> endVolumes(const PosedCasters& posed, const Vec4& light, const Vec3& eye,
+                                        std::span<const std::uint8_t> touched, PlaceData& place,
+                                        shadow::LightStats& stats) const {
+    if (!endsVolumes()) return {};
+    Box3 room = boxFrom(posed, receivers);
+    room.add(eye);
+    const shadow::Reach reach = shadow::reachWithin(*posed.casters, light, room, touched);
+    stats.endlessCasters += reach.endlessCount();
+    return place.farPoints.setAll(shadow::farPoints(*posed.casters, reach, light, eye));
+  }
 
   [[nodiscard]] Result<std::vector<Member>> membersOf(const PosedCasters& posed, std::size_t i,
                                                       const scene::Light& light, const View& view, Counting counting,
@@ -144,20 +188,24 @@ struct Work {
     const Vec4 seenFrom = lightFrom(posed, light);
     const auto positions = memo.positions(posed.casters);
     if (!positions) return tl::unexpected(positions.error());
-    const auto volume = memo.volume(posed.casters, seenFrom);
+    const auto volume = memo.volume(posed.casters, seenFrom, endsVolumes());
     if (!volume) return tl::unexpected(volume.error());
-    if (auto done = views[i].setOne(viewBlock(viewFrom(posed, view), posed.casters->origin, seenFrom)); !done)
+    if (auto done = places[i].view.setOne(viewBlock(viewFrom(posed, view), posed.casters->origin, seenFrom)); !done)
       return tl::unexpected(done.error());
     add(stats, (*volume)->stats);
+    const Vec3 eye = pointFrom(posed, view.eye);
+    std::vector<std::uint8_t> touched(posed.casters->componentCount, 0);
     std::vector<Member> members;
     for (const VolumePart& part : (*volume)->parts) {
-      Member m = memberOf(posed, **volume, part, pointFrom(posed, view.eye), counting);
+      Member m = memberOf(posed, **volume, part, eye, counting, touched);
       m.positions = *positions;
-      m.view = &views[i];
+      m.place = &places[i];
       stats.castersByZFail += counting != Counting::zFail && m.byZFail;
       stats.eyeCount += m.eyeCount;
-      members.push_back(m);
+      members.push_back(std::move(m));
     }
+    if (auto done = endVolumes(posed, seenFrom, eye, touched, places[i], stats); !done)
+      return tl::unexpected(done.error());
     return members;
   }
 };
@@ -166,7 +214,9 @@ struct Work {
 
 Result<StencilShadows> StencilShadows::make() {
   if (auto good = gl::checkCurrentContext(); !good) return tl::unexpected(good.error());
-  return StencilShadows();
+  StencilShadows shadows;
+  shadows.quirks_ = gl::findQuirks();
+  return shadows;
 }
 
 Result<StencilShadows> StencilShadows::make(shadow::CasterSet casters) {
@@ -202,21 +252,29 @@ Result<shadow::LightStats> StencilShadows::mark(const scene::Light& light, const
   stats.method = name(counting);
   stats.reason = options.castersInDepth ? "chosen by the host" : "the casters are not in the depth buffer";
   memo_.beginTurn();
-  while (views_.size() < casters.size()) views_.emplace_back();
+  while (places_.size() < casters.size()) places_.emplace_back();
   std::vector<Member> members;
   for (std::size_t i = 0; i < casters.size(); ++i) {
-    auto added = Work{memo_, views_}.membersOf(casters[i], i, light, view, counting, stats);
+    auto added = Work{memo_, places_, options.receivers}.membersOf(casters[i], i, light, view, counting, stats);
     if (!added) return tl::unexpected(added.error());
     members.insert(members.end(), added->begin(), added->end());
   }
 
   const std::vector<Group> groups = grouped(std::move(members));
+  const Vec4 lamp = scene::homogeneous(light, Vec3(0.0));
+  const Box3 bounds = boxAround(casters);
+  Box3 counted = options.receivers;
+  if (!counted.empty()) counted.add(view.eye);
   LightPlan plan{.groups = {},
                  .compareCaps = !options.castersInDepth,
-                 .volumeArea = volumeArea(view, boxAround(casters), {}, scene::homogeneous(light, Vec3(0.0)), Vec3(0.0),
-                                          placement),
+                 .twoSided = quirks_.twoSidedStencil,
+                 .finite = !options.receivers.empty(),
+                 .volumeArea = volumeArea(view, bounds, counted, lamp, Vec3(0.0), placement),
                  .litArea = litArea(view, light, placement)};
   for (const Group& group : groups) plan.groups.push_back(group.plan());
+  if (quirks_.depthBounds)
+    plan.depthBounds =
+        depthBounds(view, placement, volumeDistances(view, bounds, counted, lamp, Vec3(0.0)), plan.groups);
   for (const PassStep& step : planLights(placement, view.reversed, {plan}, Product::hostStencil).steps)
     runStep(scope, step, groups, programs_, nothing_);
   return stats;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "umbrage/gl/quirks.hpp"
 #include "umbrage/render/posed_casters.hpp"
 #include "umbrage/render/run_passes.hpp"
 #include "umbrage/render/volume_memo.hpp"
@@ -19,6 +20,14 @@ struct StencilShadowOptions {
   /// False when some casters are not drawn into the depth buffer (invisible, or transparent ones drawn later): then z-fail counts,
   /// with caps compared with the depth. CAVEAT: caps of casters that are in it after all would fight with their surfaces.
   bool castersInDepth = true;
+  /// A box of the world around all surfaces that may receive shadows: then volumes end behind it and the eye (shadow::reachWithin) instead of at infinity, which is far
+  /// less to fill; each call takes a pass over the casters' corners for it. Empty: nothing is known. REQUIRES: no surface that shall be shaded lies outside.
+  Box3 receivers = {};
+};
+
+/// What a caster set of one call has on the graphics card besides its volume.
+struct PlaceData {
+  gl::Buffer view, farPoints;
 };
 
 /// Exact shadows inside somebody else's renderer. The host draws its scene's depth into its own framebuffer, calls mark() for a
@@ -59,7 +68,8 @@ class StencilShadows {
   PosedCasters own_;
   VolumeMemo memo_;
   Programs programs_;
-  std::vector<gl::Buffer> views_;  ///< one a caster set of the call
+  std::vector<PlaceData> places_;  ///< one a caster set of the call
+  gl::Quirks quirks_;
   gl::VertexArray nothing_;        ///< for what is drawn without a buffer
 };
 

@@ -22,16 +22,16 @@ std::vector<VolumePart> partsOf(const shadow::CasterSet& casters, shadow::Silhou
   std::vector<VolumePart> parts;
   const int bound = shadow::layeringBound(casters, whole, kSharedStencil);
   if (bound <= kSharedStencil) {
-    parts.push_back({std::move(whole), bound, {}, {}});
+    parts.push_back({.silhouette = std::move(whole), .layers = bound});
     return parts;
   }
   const shadow::LayerGroups groups = shadow::groupLayers(casters, whole, kSharedStencil);
   for (int g = 0; g < groups.count; ++g)
-    parts.push_back({shadow::restrictTo(casters, whole, groups, g), kSharedStencil, {}, {}});
+    parts.push_back({.silhouette = shadow::restrictTo(casters, whole, groups, g), .layers = kSharedStencil});
   return parts;
 }
 
-Result<StoredVolume> makeVolume(const shadow::SilhouetteFinder& finder, const Vec4& light) {
+Result<StoredVolume> makeVolume(const shadow::SilhouetteFinder& finder, const Vec4& light, bool endsAnywhere) {
   const shadow::CasterSet& casters = finder.casters();
   StoredVolume volume;
   shadow::Silhouette whole = finder.silhouette(light);
@@ -41,7 +41,8 @@ Result<StoredVolume> makeVolume(const shadow::SilhouetteFinder& finder, const Ve
   volume.parts = partsOf(casters, std::move(whole));
   std::vector<std::uint32_t> indices;
   for (VolumePart& part : volume.parts) {
-    const shadow::ShadowVolume extruded = shadow::extrude(casters, part.silhouette);
+    const shadow::ShadowVolume extruded = shadow::extrude(casters, part.silhouette, {.endsAnywhere = endsAnywhere});
+    part.indicesPerSide = light.w == 0.0 && !endsAnywhere ? 3 : 6;
     part.sides = append(indices, extruded.sides);
     part.caps = append(indices, extruded.caps);
   }
@@ -78,14 +79,14 @@ Result<const gl::Buffer*> VolumeMemo::positions(const Casters& casters) {
   return &(*entry)->positions;
 }
 
-Result<const StoredVolume*> VolumeMemo::volume(const Casters& casters, const Vec4& light) {
+Result<const StoredVolume*> VolumeMemo::volume(const Casters& casters, const Vec4& light, bool endsAnywhere) {
   const auto entry = entryOf(casters);
   if (!entry) return tl::unexpected(entry.error());
   auto& volumes = (*entry)->volumes;
-  const std::array<double, 4> key{light.x, light.y, light.z, light.w};
+  const std::array<double, 5> key{light.x, light.y, light.z, light.w, endsAnywhere ? 1.0 : 0.0};
   auto found = volumes.find(key);
   if (found == volumes.end()) {
-    auto made = makeVolume(*(*entry)->finder, light);
+    auto made = makeVolume(*(*entry)->finder, light, endsAnywhere);
     if (!made) return tl::unexpected(made.error());
     ++work_.silhouettes;
     found = volumes.emplace(key, std::move(*made)).first;

@@ -24,6 +24,7 @@ struct VolumePart {
   shadow::Silhouette silhouette;
   int layers = 0;
   IndexRange sides, caps;
+  std::size_t indicesPerSide = 0;  ///< sides stand in the order of the silhouette's edges, each as often as its multiplicity says
 };
 
 /// What one caster set throws under one light, ready to be drawn.
@@ -49,8 +50,8 @@ class VolumeMemo {
 
   /// Errors: ErrorCode::device when memory is short.
   [[nodiscard]] Result<const gl::Buffer*> positions(const Casters& casters);
-  /// `light`: homogeneous, relative to casters->origin.
-  [[nodiscard]] Result<const StoredVolume*> volume(const Casters& casters, const Vec4& light);
+  /// `light`: homogeneous, relative to casters->origin. `endsAnywhere`: as shadow::ExtrudeOptions has it.
+  [[nodiscard]] Result<const StoredVolume*> volume(const Casters& casters, const Vec4& light, bool endsAnywhere);
 
   [[nodiscard]] const ShadowWork& work() const { return work_; }
 
@@ -59,7 +60,7 @@ class VolumeMemo {
     std::weak_ptr<const shadow::CasterSet> casters;
     gl::Buffer positions;
     std::unique_ptr<shadow::SilhouetteFinder> finder;  ///< does not own the casters, which would keep them alive
-    std::map<std::array<double, 4>, StoredVolume> volumes;  ///< by light
+    std::map<std::array<double, 5>, StoredVolume> volumes;  ///< by light, and whether they may end anywhere
   };
   [[nodiscard]] Result<Entry*> entryOf(const Casters& casters);
 

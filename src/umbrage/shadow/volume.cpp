@@ -78,7 +78,7 @@ ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, con
   const bool directional = silhouette.light.w == 0.0;
   // A direction carries all vertices to one point at infinity: sides are single triangles, and there is no far cap.
   const auto toOnePoint = [&](std::uint32_t component) {
-    return directional && (options.reach == nullptr || options.reach->isEndless(component));
+    return directional && !options.endsAnywhere && (options.reach == nullptr || options.reach->isEndless(component));
   };
   const auto chosen = [&](std::uint32_t component) {
     return options.components.empty() || options.components[component] != 0;
@@ -87,7 +87,7 @@ ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, con
   const auto append = [&](const SilhouetteEdge& edge) {
     options.sidesAsEdges ? appendEdge(volume.sides, edge) : appendSide(volume.sides, edge, toOnePoint(edge.component));
   };
-  const std::size_t perEdge = directional && options.reach == nullptr ? 3 : 6;
+  const std::size_t perEdge = directional && !options.endsAnywhere && options.reach == nullptr ? 3 : 6;
   if (!options.keepSide) volume.sides.reserve(silhouette.edges.size() * perEdge);
   for (const SilhouetteEdge& edge : silhouette.edges)
     if (chosen(edge.component) && (!options.keepSide || options.keepSide(edge)))

@@ -34,6 +34,8 @@ struct ExtrudeOptions {
   /// `sides` holds edges instead of triangles, two indices each, for a shader that makes sides of them: from 2a to 2b where the near cap runs
   /// from a to b. A side is then the triangles (2b, 2a, 2a+1) and, unless both far vertices are one point, (2b, 2a+1, 2b+1).
   bool sidesAsEdges = false;
+  /// Far vertices are never taken for one point, so that they may be carried anywhere: all sides are quads and all caps have far caps.
+  bool endsAnywhere = false;
 };
 
 [[nodiscard]] ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, const ExtrudeOptions& options = {});
