@@ -161,6 +161,28 @@ TEST_F(Maps, EnvelopeHoldsEveryMoment) {
   EXPECT_THAT(day.err, HasSubstr("--min-elevation"));
 }
 
+TEST_F(Maps, Isochrones) {
+  const auto box = writeBox();
+  const Ran ran = run({"isochrones", box, "--hours", "2,1", "--shadow", "-o", file("out.geojson")}, kVienna);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("of 10000 random points none"));
+  const Json map = Json::parse(read("out.geojson"));
+  ASSERT_EQ(map.at("features").size(), 2U);
+  const auto property = [&](std::size_t i, const char* name) {
+    return map.at("features").at(i).at("properties").at(name).get<double>();
+  };
+  EXPECT_EQ(property(0, "hours"), 1.0);
+  EXPECT_EQ(property(1, "hours"), 2.0);
+  EXPECT_GT(property(0, "area_m2"), property(1, "area_m2"));
+  EXPECT_THAT(map.at("umbrage").at("Error bound").get<std::string>(), HasSubstr("within 0.1 m"));
+  EXPECT_EQ(run({"isochrones", box, "--hours", "0", "-o", file("x.svg")}, kVienna).code, 2);
+  EXPECT_EQ(run({"isochrones", box, "--hours", "1,two", "-o", file("x.svg")}, kVienna).code, 2);
+  const Ran night =
+      run({"isochrones", box, "--hours", "1", "--from", "00:00", "--to", "03:00", "-o", file("x.svg")}, kVienna);
+  EXPECT_EQ(night.code, 2);
+  EXPECT_THAT(night.err, HasSubstr("below the horizon"));
+}
+
 TEST_F(Maps, AFarPlaceIsWorthAWarning) {
   const Ran ran = run({"outline", writeSquare(), "--at", "12:00", "-o", file("out.svg")},
                       {"--lat", "35", "--lon", "139", "--date", "2026-09-18", "--tz", "solar"});

@@ -166,7 +166,8 @@ class Svg {
 
   void drawLayer(std::size_t layer) {
     const MapLayer& look = map_.layers[layer];
-    const double opacity = map_.layers.size() < 3 ? 0.55 : std::max(0.18, 0.9 / double(map_.layers.size()));
+    const double thin = map_.layers.size() < 3 ? 0.55 : std::max(0.18, 0.9 / double(map_.layers.size()));
+    const double opacity = look.opacity > 0.0 ? look.opacity : thin;
     add("<g id=\"layer-{}\" fill=\"{}\" fill-opacity=\"{:.2f}\" stroke=\"{}\" stroke-width=\"{:.4g}\" "
         "stroke-opacity=\"0.85\"><title>{}</title>\n",
         layer, hex(look.colour), opacity, hex(darker(look.colour)), 0.8 / frame_.scale, escaped(look.name));
@@ -223,7 +224,7 @@ class Svg {
     for (const MapLayer& layer : map_.layers) {
       add("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"22\" height=\"12\" rx=\"2\" fill=\"{}\" fill-opacity=\"0.75\" "
           "stroke=\"{}\"/>\n",
-          left(), y_ - 10, hex(layer.colour), hex(darker(layer.colour)));
+          left(), y_ - 10, hex(layer.colour), layer.opacity > 0.0 ? layer.opacity : 0.75, hex(darker(layer.colour)));
       text(layer.name, 12, "#21252d", false, 32);
       y_ += 18;
     }

@@ -17,6 +17,7 @@ namespace umbrage::report {
 struct MapLayer {
   std::string name;  ///< "09:00"
   image::Rgb8 colour{};
+  double opacity = 0.0;  ///< in pictures; 0: by the number of layers, so that all show through
 };
 
 struct MapFeature {

@@ -38,6 +38,7 @@ struct Extent {
 class Grid {
  public:
   explicit Grid(const Extent& extent);
+  Grid(const Vec2& origin, double step) : origin_(origin), step_(step) {}
   [[nodiscard]] GridPoint snap(const Vec2& p) const;
   [[nodiscard]] Vec2 place(const GridPoint& p) const { return origin_ + step_ * Vec2(double(p.x), double(p.y)); }
   [[nodiscard]] double step() const { return step_; }
