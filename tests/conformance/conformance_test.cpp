@@ -3,7 +3,6 @@
 #include <cstdio>
 
 #include "conformance/judge.hpp"
-#include "support/asking.hpp"
 #include "support/oracle.hpp"
 #include "support/shapes.hpp"
 
@@ -43,21 +42,6 @@ TEST_P(Conformance, NoPixelDiffersFarFromATrueEdge) {
   }
 }
 
-/// Ways of the volume techniques that are asked for; no pixel may depend on them.
-std::vector<shadow::TechniqueEntry> askedFor() {
-  std::vector<shadow::TechniqueEntry> all;
-  for (const shadow::TechniqueEntry& entry : allTechniques()) {
-    if (entry.traits.name != "zfail" && entry.traits.name != "zpass") continue;
-    all.push_back(support::asking(entry, entry.traits.name + " gpu",
-                                  [](shadow::Frame& f) { f.silhouettes = shadow::FinderKind::gpu; }));
-    all.push_back(support::asking(entry, entry.traits.name + " cpu",
-                                  [](shadow::Frame& f) { f.extrusion = shadow::Extrusion::processor; }));
-    all.push_back(support::asking(entry, entry.traits.name + " geom",
-                                  [](shadow::Frame& f) { f.extrusion = shadow::Extrusion::geometryShader; }));
-  }
-  return all;
-}
-
 class ConformanceOfWays : public testing::TestWithParam<std::string> {};
 
 // Every ninth view; others for each scene.
@@ -66,7 +50,7 @@ TEST_P(ConformanceOfWays, NoPixelDiffersFarFromATrueEdge) {
   const auto geometry = shadow::makeGeometry(c.scene);
   std::size_t place = c.name.size();
   std::erase_if(c.views, [&](const NamedView&) { return place++ % 9 != 0; });
-  for (const shadow::TechniqueEntry& entry : askedFor()) judgeTechnique(entry, c, geometry);
+  for (const shadow::TechniqueEntry& entry : askedWays()) judgeTechnique(entry, c, geometry);
 }
 
 // Sixteen pixels of every view and light, those on which brute force is sure.

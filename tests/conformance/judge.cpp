@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "support/asking.hpp"
 #include "umbrage/techniques/cpu/registry.hpp"
 #ifdef UMBRAGE_HAVE_TECHNIQUES_GL
 #include "umbrage/techniques/gl/registry.hpp"
@@ -36,6 +37,20 @@ std::vector<shadow::TechniqueEntry> allTechniques() {
 #ifdef UMBRAGE_HAVE_TECHNIQUES_GL
   for (auto& entry : techniques::openGlTechniques()) all.push_back(std::move(entry));
 #endif
+  return all;
+}
+
+std::vector<shadow::TechniqueEntry> askedWays() {
+  std::vector<shadow::TechniqueEntry> all;
+  for (const shadow::TechniqueEntry& entry : allTechniques()) {
+    if (entry.traits.name != "zfail" && entry.traits.name != "zpass") continue;
+    all.push_back(support::asking(entry, entry.traits.name + " gpu",
+                                  [](shadow::Frame& f) { f.silhouettes = shadow::FinderKind::gpu; }));
+    all.push_back(support::asking(entry, entry.traits.name + " cpu",
+                                  [](shadow::Frame& f) { f.extrusion = shadow::Extrusion::processor; }));
+    all.push_back(support::asking(entry, entry.traits.name + " geom",
+                                  [](shadow::Frame& f) { f.extrusion = shadow::Extrusion::geometryShader; }));
+  }
   return all;
 }
 

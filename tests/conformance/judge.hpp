@@ -11,6 +11,9 @@ namespace umbrage::conformance {
 /// Every technique of this build, the truth first.
 [[nodiscard]] std::vector<shadow::TechniqueEntry> allTechniques();
 
+/// Ways of zfail and zpass that are asked for, by compute shaders and by other extrusions; no pixel may depend on them.
+[[nodiscard]] std::vector<shadow::TechniqueEntry> askedWays();
+
 /// How one mask compares with the truth.
 struct Verdict {
   std::string technique, scene, view, light;

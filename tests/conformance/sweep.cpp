@@ -26,7 +26,9 @@ constexpr double kWorstShareInCode = 1e-6;
 bool judgeAll(const std::string& name, const std::shared_ptr<const shadow::Geometry>& geometry,
               const std::vector<NamedView>& views, const std::vector<NamedLight>& lights, double worstShare) {
   bool good = true;
-  for (const shadow::TechniqueEntry& entry : allTechniques()) {
+  std::vector<shadow::TechniqueEntry> entries = allTechniques();
+  for (auto& way : askedWays()) entries.push_back(std::move(way));
+  for (const shadow::TechniqueEntry& entry : entries) {
     if (entry.traits.name == allTechniques().front().traits.name) continue;
     if (entry.traits.needsClosed && geometry->casters.report.topology != mesh::Topology::closed) continue;
     auto judge = Judge::make(entry, geometry);
