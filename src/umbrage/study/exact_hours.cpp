@@ -26,7 +26,8 @@ struct ExactHours::Impl {
   sun::Place place;
   Vec3 origin{0.0};
   detail::HoursTree tree;
-  detail::SolidBoxes solids;
+  detail::SolidBoxes boxes;
+  std::vector<detail::Casters::Solid> solids;
   ExactHoursOptions options;
   double contact = 0.0;
 };
@@ -119,7 +120,7 @@ struct GroupContext {
   const ExactHours::Impl& hours;
   const SunLeg& leg;
   const Vec3* positions;  // relative to the origin, by number in the group
-  Vec3 normal;            // unit or 0
+  const Vec3* normals;    // unit or 0
 
   struct Seen {
     Vec3 corner[4];
@@ -195,9 +196,9 @@ bool touchQuad(void* context, std::uint32_t point, std::uint32_t quad, Coverage&
   if (std::abs(depth) > group.hours.contact || !standsOn(seen, unit, group.hours.contact)) return false;
   constexpr double kUpright =
       0.05;  // the sine between a surface and the receiver's plane below which neither side is meant
-  const double facing = glm::dot(unit, group.normal);
+  const double facing = glm::dot(unit, group.normals[point]);
   const double nothing = 1e-12 * group.hours.tree.reach;
-  if (group.normal == Vec3(0.0)) return true;
+  if (group.normals[point] == Vec3(0.0)) return true;
   if (std::abs(facing) < kUpright) return std::abs(depth) <= nothing;
   // Seen from just above the surface, on the side the receiver faces.
   const Vec3 lift = unit * (std::copysign(nothing, facing) + depth);
@@ -222,6 +223,7 @@ class Worker {
     roomsOfThread = &rooms_;
     Vec3 low(std::numeric_limits<double>::infinity()), high(-low);
     CoverJob job{};
+    box_ = {};
     job.count = static_cast<std::int32_t>(members.size());
     for (std::size_t i = 0; i < members.size(); ++i) {
       positions_[i] = receivers[members[i]].position - hours_.origin;
@@ -230,13 +232,16 @@ class Worker {
         job.points[i].low[k] = float(positions_[i][k] - double(job.points[i].high[k]));
       }
       job.points[i].index = static_cast<std::uint32_t>(i);
+      box_.add(positions_[i]);
       const Vec3 p = hours_.frame.horizontal(positions_[i]);
       low = glm::min(low, p), high = glm::max(high, p);
+      const Vec3 turning = hours_.frame.turning(positions_[i]);
+      job.eyeFirst[i] = float(turning.x), job.eyeWest[i] = float(turning.y), job.eyeSouth[i] = float(turning.z);
       lit[i].clear();
+      const Vec3& given = receivers[members[i]].normal;
+      const double length = glm::length(given);
+      normals_[i] = length > 0.0 ? given / length : Vec3(0.0);
     }
-    const Vec3 given = receivers[members[0]].normal;
-    const double length = glm::length(given);
-    normal_ = length > 0.0 ? given / length : Vec3(0.0);
     place(job, low, high);
     for (const ReadyLeg& leg : legs_) pass(job, leg, lit);
   }
@@ -245,17 +250,18 @@ class Worker {
   void place(CoverJob& job, const Vec3& low, const Vec3& high) {
     const Vec3 middle = 0.5 * (low + high), far = glm::max(glm::abs(low), glm::abs(high));
     const double margin = 0x1p-21 * std::max({far.x, far.y, far.z});  // of rounding the middle
+    job.margin = float(margin);
     const Vec3 half = 0.5 * (high - low) + Vec3(margin);
     const detail::SkyFrame& f = hours_.frame;
     const Vec3 turning = f.turning(middle.x * f.east + middle.y * f.north + middle.z * f.up);
-    const Vec3 normal = f.turning(normal_), slab = glm::abs(f.horizontal(normal_));
+    const Vec3 normal = f.turning(normals_[0]), slab = glm::abs(f.horizontal(normals_[0]));
     for (int k = 0; k < 3; ++k) {
       job.middle[k] = float(turning[k]), job.extent[k] = float(half[k]);
       job.normal[k] = float(normal[k]), job.slab[k] = float(slab[k]) * 1.000001f;
     }
     within_.clear();
-    hours_.solids.find(middle.x * f.east + middle.y * f.north + middle.z * f.up,
-                       glm::length(half) + 2.0 * hours_.contact, within_);
+    hours_.boxes.find(box_.min - Vec3(2.0 * hours_.contact), box_.max + Vec3(2.0 * hours_.contact), within_);
+    std::erase_if(within_, [&](std::int32_t solid) { return allOutside(solid, job.count); });
     job.within = within_.data(), job.withinCount = static_cast<std::int32_t>(within_.size());
     job.nodes = hours_.tree.nodes.data(), job.leaves = hours_.tree.leaves.data(), job.quads = hours_.tree.quads.data();
     job.root = hours_.tree.root;
@@ -264,10 +270,23 @@ class Worker {
     job.grow = growCoverage, job.refine = refineEdges, job.touch = touchQuad;
   }
 
+  // Whether one side of a convex solid has all the group's points before it, or on it and facing as it does.
+  [[nodiscard]] bool allOutside(std::int32_t solid, std::int32_t count) const {
+    const auto& sides = hours_.solids[static_cast<std::size_t>(solid)].sides;
+    return std::any_of(sides.begin(), sides.end(), [&](const detail::Casters::Plane& side) {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        const double before = glm::dot(positions_[i] - side.point, side.normal);
+        if (before > hours_.contact) continue;
+        if (before < -hours_.contact || glm::dot(side.normal, normals_[i]) < 1.0 - 1e-9) return false;
+      }
+      return true;
+    });
+  }
+
   // The hours in which the sun is behind the receivers' own plane. False when that is all of them.
-  bool coverBehind(const SunLeg& leg, Coverage& covered) const {
-    if (normal_ == Vec3(0.0)) return true;
-    const detail::SideHours before = detail::hoursInside(leg, hours_.frame.turning(normal_));
+  bool coverBehind(const SunLeg& leg, const Vec3& normal, Coverage& covered) const {
+    if (normal == Vec3(0.0)) return true;
+    const detail::SideHours before = detail::hoursInside(leg, hours_.frame.turning(normal));
     if (before.kind == detail::SideHours::Kind::never) return false;
     if (before.kind == detail::SideHours::Kind::always) return true;
     const auto cover = [&](double from, double to) {
@@ -284,23 +303,29 @@ class Worker {
     return true;
   }
 
+  static void copyStart(const Coverage& from, Coverage& to) {
+    std::copy_n(from.from, 8, to.from);
+    std::copy_n(from.to, 8, to.to);
+    to.count = from.count, to.bins = from.bins;
+  }
+
   void pass(CoverJob& job, const ReadyLeg& ready, std::array<std::vector<TimeSpan>, detail::kGroup>& lit) {
     const SunLeg& leg = *ready.leg;
-    GroupContext context{hours_, leg, positions_.data(), normal_};
+    GroupContext context{hours_, leg, positions_.data(), normals_.data()};
     job.rise = float(leg.whole.rise), job.cosine = float(leg.whole.cosine), job.sine = float(leg.whole.sine);
     job.error = float(leg.wholeError);
     job.first = float(leg.first), job.last = float(leg.last);
     job.arcs = ready.arcs.data();
     job.context = &context;
-    job.covered[0] = emptyCoverage(rooms_.rooms[0], leg);
-    if (!coverBehind(leg, job.covered[0])) return;
-    for (int i = 1; i < job.count; ++i) {
-      Coverage& c = job.covered[i];
+    Coverage start{};
+    for (int i = 0; i < job.count; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      c = emptyCoverage(rooms_.rooms[k], leg);
-      c.count = job.covered[0].count, c.bins = job.covered[0].bins;
-      std::copy_n(job.covered[0].from, 8, c.from);
-      std::copy_n(job.covered[0].to, 8, c.to);
+      job.covered[i] = emptyCoverage(rooms_.rooms[k], leg);
+      if (i > 0 && normals_[k] == normals_[0])
+        copyStart(start, job.covered[i]);
+      else if (!coverBehind(leg, normals_[k], job.covered[i]))
+        detail::addPlain(job.covered[i], job.first, job.last, growCoverage);
+      if (i == 0) start = job.covered[0];
     }
     if (!hours_.tree.nodes.empty()) wide_ ? detail::coverWide(job) : detail::coverPlain(job);
     for (int i = 0; i < job.count; ++i) addGaps(leg, job.covered[i], lit[static_cast<std::size_t>(i)]);
@@ -310,7 +335,7 @@ class Worker {
     float from = float(leg.first);
     double fromTime = leg.firstTime;
     const auto last = float(leg.last);
-    const auto time = [&](float p) { return leg.time(detail::angleOf(double(p))); };
+    const auto time = [&](float p) { return leg.timeAt(double(p)); };
     for (std::int32_t i = 0; i <= covered.count; ++i) {
       const bool end = i == covered.count;
       const float to = end ? last : std::min(covered.from[i], last);
@@ -339,7 +364,8 @@ class Worker {
   Rooms rooms_;
   std::array<Vec3, detail::kGroup> positions_;
   std::vector<std::int32_t> within_;
-  Vec3 normal_{0.0};
+  std::array<Vec3, detail::kGroup> normals_;
+  Box3 box_;  // of the group
 };
 
 // What each thread found, until all of it is put in order.
@@ -403,10 +429,13 @@ Result<ExactHours> ExactHours::build(const scene::Scene& scene, const sun::Place
   for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t)
     if (surfaces.casts[t] != 0 && scene.materials[surfaces.materials[t]].opacity >= options.leastOpacity)
       chosen.push_back(t);
-  const detail::Casters casters = detail::makeCasters(surfaces, chosen);
+  detail::Casters casters = detail::makeCasters(surfaces, chosen);
   impl->tree = detail::buildTree(surfaces, casters, impl->frame);
   impl->contact = kContact * impl->tree.reach;
-  impl->solids = detail::SolidBoxes(casters.solids);
+  std::vector<Box3> boxes;
+  for (const auto& solid : casters.solids) boxes.push_back(solid.box);
+  impl->boxes = detail::SolidBoxes(std::move(boxes));
+  impl->solids = std::move(casters.solids);
   return ExactHours(std::move(impl));
 }
 
@@ -415,7 +444,7 @@ Result<SunHours> ExactHours::at(std::span<const Receiver> receivers, const SunCo
   UMBRAGE_CHECK(course.place().latitude == impl_->place.latitude, "the course is of another place");
   std::vector<ReadyLeg> legs;
   for (const SunLeg& leg : course.legs()) legs.emplace_back(leg, impl_->frame);
-  const detail::Groups groups = detail::makeGroups(receivers, impl_->tree.leafSize);
+  const detail::Groups groups = detail::makeGroups(receivers, 1.4 * impl_->tree.leafSize);
 
   constexpr std::size_t kPerTurn = 64;
   const std::size_t turns = (groups.size() + kPerTurn - 1) / kPerTurn;

@@ -170,22 +170,41 @@ struct CourseMaker {
   }
 
   SunLeg leg(double from, double to, bool wrapsAtStart, bool wrapsAtEnd) const {
-    constexpr int kKnots = 512, kBeyond = 4;
+    constexpr int kKnots = 512;
+    constexpr double kBeyond = 0.02;  // radians, so that tables by pseudo-angle may end beyond the leg
     SunLeg leg;
     leg.firstTime = from, leg.lastTime = to;
     leg.firstAngle = wrapsAtStart ? -kPi : angle(from);
     leg.lastAngle = wrapsAtEnd ? kPi : angle(to);
     leg.first = wrapsAtStart ? -2.0 : detail::pseudoAngle(leg.firstAngle);
     leg.last = wrapsAtEnd ? 2.0 : detail::pseudoAngle(leg.lastAngle);
-    leg.knotStep = std::max((leg.lastAngle - leg.firstAngle) / kKnots, 1e-7);
-    leg.knotStart = leg.firstAngle - kBeyond * leg.knotStep;
-    double near = from;
-    for (int i = 0; i <= kKnots + 2 * kBeyond; ++i) {
+    leg.knotStep = (leg.lastAngle - leg.firstAngle + 2.0 * kBeyond) / kKnots;
+    leg.knotStart = leg.firstAngle - kBeyond;
+    double near = timeOf(leg.knotStart, from);
+    for (int i = 0; i <= kKnots; ++i) {
       leg.knots.push_back(knotAt(leg.knotStart + i * leg.knotStep, near));
       near = leg.knots.back().time + leg.knots.back().timeSlope * leg.knotStep;
     }
+    fillPseudoKnots(leg);
     fitArcs(leg);
     return leg;
+  }
+
+  // The knots are the same for all legs, so that the kinks of the pseudo-angle at the quarters fall on some.
+  static void fillPseudoKnots(SunLeg& leg) {
+    constexpr double kStep = 1.0 / SunLeg::kPseudoKnots;
+    leg.pseudoStart = std::floor(leg.first / kStep) * kStep;
+    const int cells = static_cast<int>(std::ceil((leg.last - leg.pseudoStart) / kStep));
+    double least = leg.height(leg.firstAngle), most = least;
+    for (int i = 0; i <= std::max(cells, 1); ++i) {
+      const double p = leg.pseudoStart + i * kStep, within = std::clamp(p, -2.0, 2.0), h = detail::angleOf(within);
+      // With |x| + |y| = 1 in each quarter, dh = dp / (x^2 + y^2).
+      const double x = 1.0 - std::abs(within), y = 1.0 - std::abs(x), perPseudo = 1.0 / (x * x + y * y);
+      const double slope = leg.heightSlope(h), height = leg.height(h);
+      leg.pseudoKnots.push_back({height, slope * perPseudo, slope, leg.time(h), leg.timeSlope(h) * perPseudo});
+      least = std::min(least, height), most = std::max(most, height);
+    }
+    leg.middleHeight = 0.5 * (least + most), leg.heightRange = most - least;
   }
 
   void fitArcs(SunLeg& leg) const {
@@ -271,6 +290,10 @@ double SunLeg::height(double h) const {
 double SunLeg::heightSlope(double h) const {
   const auto [a, b, x] = cellOf(*this, h);
   return cubicSlope(a->height, b->height, a->heightSlope * knotStep, b->heightSlope * knotStep, x) / knotStep;
+}
+double SunLeg::timeSlope(double h) const {
+  const auto [a, b, x] = cellOf(*this, h);
+  return cubicSlope(a->time, b->time, a->timeSlope * knotStep, b->timeSlope * knotStep, x) / knotStep;
 }
 double SunLeg::time(double h) const {
   const auto [a, b, x] = cellOf(*this, h);

@@ -160,7 +160,12 @@ class Gatherer {
       leaf.solid[lane] = caster.solid;
       leaf.used |= 1u << lane;
       if (caster.solid < 0) leaf.open |= 1u << lane;
+      if (glm::dot(area, frame_.up) >= size * (1.0 - 1e-12)) leaf.flatUp |= 1u << lane;
     }
+    TreeNode box = emptyNode();
+    place(box, 0, node.box);
+    leaf.first = box.first[0], leaf.west = box.west[0], leaf.south = box.south[0], leaf.flat = box.flat[0];
+    leaf.east = box.east[0], leaf.north = box.north[0], leaf.up = box.up[0];
     const Vec3 size = node.box.size();
     sizes.push_back(std::max({size.x, size.y, size.z}));
     out_.leaves.push_back(leaf);

@@ -42,9 +42,11 @@ class Solids {
  public:
   std::vector<std::int32_t> solid;
   std::vector<std::uint8_t> turned;
-  std::vector<Box3> boxes;
+  std::vector<Casters::Solid> solids;
 
  private:
+  static constexpr std::size_t kMostSides = 64;
+
   void findNeighbours() {
     sides_.resize(triangles_.size());
     for (std::uint32_t e = 0; e < edges_.size(); ++e)
@@ -65,18 +67,37 @@ class Solids {
       }
     }
     if (!closed) return;
-    const auto id = static_cast<std::int32_t>(boxes.size());
-    boxes.emplace_back();
+    const auto id = static_cast<std::int32_t>(solids.size());
+    solids.emplace_back();
     double volume = 0.0;
     const Vec3 origin = surfaces_.corner(0, 0);
     for (const std::uint32_t t : members) {
       solid[t] = id;
       const Vec3 a = corner(t, 0) - origin, b = corner(t, 1) - origin, c = corner(t, 2) - origin;
       volume += (turned[t] != 0 ? -1.0 : 1.0) * glm::dot(a, glm::cross(b, c));
-      for (int k = 0; k < 3; ++k) boxes.back().add(corner(t, k));
+      for (int k = 0; k < 3; ++k) solids.back().box.add(corner(t, k));
     }
     if (volume < 0.0)
       for (const std::uint32_t t : members) turned[t] ^= 1;
+    if (members.size() <= kMostSides) solids.back().sides = convexSides(members, solids.back().box);
+  }
+
+  // The planes of all triangles, or none where a corner lies before one by more than rounding.
+  [[nodiscard]] std::vector<Casters::Plane> convexSides(const std::vector<std::uint32_t>& members,
+                                                        const Box3& box) const {
+    const Vec3 far = glm::max(glm::abs(box.min), glm::abs(box.max));
+    const double rounding = 0x1p-23 * std::max({far.x, far.y, far.z});
+    std::vector<Casters::Plane> sides;
+    for (const std::uint32_t t : members) {
+      const Vec3 a = corner(t, 0), n = glm::cross(corner(t, 1) - a, corner(t, 2) - a) * (turned[t] != 0 ? -1.0 : 1.0);
+      if (!(glm::length(n) > 0.0)) return {};
+      sides.push_back({a, glm::normalize(n)});
+    }
+    for (const std::uint32_t t : members)
+      for (int k = 0; k < 3; ++k)
+        for (const Casters::Plane& side : sides)
+          if (glm::dot(corner(t, k) - side.point, side.normal) > rounding) return {};
+    return sides;
   }
 
   // Turns a new triangle to fit the one it was reached from; false where it cannot.
@@ -128,10 +149,10 @@ Casters makeCasters(const scene::Surfaces& surfaces, const std::vector<std::uint
   triangles.reserve(chosen.size());
   for (const std::uint32_t t : chosen) triangles.push_back(surfaces.triangles[t]);
   const EdgeTable edges = mesh::buildEdgeTable(triangles);
-  const Solids solids(surfaces, triangles, edges);
+  Solids solids(surfaces, triangles, edges);
 
   Casters out;
-  out.solids = solids.boxes;
+  out.solids = std::move(solids.solids);
   std::vector<std::uint8_t> used(triangles.size(), 0);
   const auto at = [&](std::uint32_t position) { return Vec3(surfaces.positions[position]); };
   for (std::size_t e = 0; e < edges.size(); ++e) {

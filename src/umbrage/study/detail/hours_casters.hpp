@@ -19,7 +19,14 @@ struct CasterQuad {
 /// from outside of its box, such a one hides by its faces towards the point alone.
 struct Casters {
   std::vector<CasterQuad> quads;
-  std::vector<Box3> solids;  ///< their boxes
+  struct Plane {
+    Vec3 point, normal;  ///< unit, outwards
+  };
+  struct Solid {
+    Box3 box;
+    std::vector<Plane> sides;  ///< of a convex solid with few triangles; who is before one of them is outside
+  };
+  std::vector<Solid> solids;
 };
 
 /// `chosen`: triangles of the surfaces, ascending.

@@ -64,10 +64,23 @@ inline void addCovered(Coverage& c, float from, float to, void (*grow)(Coverage&
 
 // ---- leaves
 
-struct LeafPiece {
-  float from, to;  // hours that the leaf is asked for
-  Lanes first, last;
+// Two quads of a leaf, or one, that may hide the sun from a point within some hours.
+struct Task {
+  std::uint32_t point, a, b;
+  bool two;
+  float sideA, sideB;  // negative: seen from outside
+  float from, to;
   const ArcDirections* arc;
+};
+
+// When they do, per quad; the hours on the inner sides of their edges where these ranges do not tell all.
+struct Answer {
+  alignas(32) float edgeFrom[8];
+  alignas(32) float edgeTo[8];
+  float from[2], to[2];
+  std::uint32_t found;     // bits 0-3 and 4-7: the quad hides the sun somewhere
+  std::uint32_t doubtful;  // bit k: an edge along which the sun rakes; it is left out of the range
+  std::uint32_t cut;       // bit k: an edge that lets the sun through in the midst of the range
 };
 
 inline Lanes pseudo(Lanes x, Lanes y) { return flipped(Lanes(1.0f) - x / (magnitude(x) + magnitude(y)), y); }
@@ -105,87 +118,93 @@ inline void addPieces(const float* from, const float* to, float first, float las
   for (int i = 0; i < count; ++i) addCovered(c, piece[i][0], piece[i][1], grow);
 }
 
-// Two quads at once, an edge per lane: lanes 0-3 are quad `a`, 4-7 quad `b`. The sides' signs say from which side each is seen.
-// Bits of halves: 1 and 2.
-inline void addTwo(const CoverJob& job, const GroupPoint& point, const LeafPiece& piece, std::uint32_t a,
-                   std::uint32_t b, bool two, Lanes side, Coverage& covered) {
-  const TreeQuad &p = job.quads[a], &q = job.quads[b];
+// An edge per lane: lanes 0-3 are quad `a`, 4-7 quad `b`. Without a branch, so that the processor works on several tasks at once.
+inline void solve(const CoverJob& job, const Task& task, Answer& answer) {
+  const TreeQuad &p = job.quads[task.a], &q = job.quads[task.b];
+  const GroupPoint& point = job.points[task.point];
   const auto seen = [&](const float* u, const float* v, int axis) {
     return (load(u, v) - Lanes(point.high[axis])) - Lanes(point.low[axis]);
   };
+  const Lanes side = halves(task.sideA, task.sideB);
   const Three corner{seen(p.x, q.x, 0), seen(p.y, q.y, 1), seen(p.z, q.z, 2)};
   const Three next{following(corner.x), following(corner.y), following(corner.z)};
-  // (a + b) x (b - a): with the ends exchanged it is the same with the other sign, bit by bit, so that neighbours share a moment.
+  // (a + b) x (b - a): with the ends exchanged it is the same with the other sign, bit by bit, so that neighbours share a
+  // moment.
   const Three sum{corner.x + next.x, corner.y + next.y, corner.z + next.z};
   const Three edge{next.x - corner.x, next.y - corner.y, next.z - corner.z};
   const Three plane{flipped(fms(sum.y, edge.z, sum.z * edge.y), side),
                     flipped(fms(sum.z, edge.x, sum.x * edge.z), side),
                     flipped(fms(sum.x, edge.y, sum.y * edge.x), side)};
-  const Lanes al = dot(plane, piece.arc->rise), be = dot(plane, piece.arc->cosine), ga = dot(plane, piece.arc->sine);
-  const Lanes zero(0.0f);
+  const Lanes al = dot(plane, task.arc->rise), be = dot(plane, task.arc->cosine), ga = dot(plane, task.arc->sine);
+  const Lanes zero(0.0f), first(task.from), last(task.to);
   const Lanes d2 = fnma(al, al, fma(be, be, ga * ga));
   const Lanes size = fma(plane.x, plane.x, fma(plane.y, plane.y, plane.z * plane.z));
   const Mask crosses = d2 > zero;
-  const Mask raking = magnitude(d2) < Lanes(0.01f) * size;  // the sun meets this edge at less than 0.1 radians
-  const std::uint32_t never = bits(without(raking, without(crosses, al < zero)));
-  const std::uint32_t wanted = (two ? 0xffu : 0x0fu);
-  std::uint32_t alive = ((never & 0x0fu) != 0 ? 0u : 0x0fu) | ((never & 0xf0u) != 0 ? 0u : 0xf0u);
-  alive &= wanted;
-  if (alive == 0) return;
+  const Mask raking = magnitude(d2) < Lanes(0.0025f) * size;  // the sun meets this edge at less than 0.05 radians
+  const Mask never = without(raking, without(crosses, al < zero)), clear = without(raking, crosses);
   const Lanes d = root(larger(d2, zero));
   const Lanes ab = -al * be, ag = -al * ga;
-  const Mask plainEdge = without(raking, crosses);
-  Lanes from = select(plainEdge, pseudo(fma(ga, d, ab), fnma(be, d, ag)), Lanes(-4.0f));
-  Lanes to = select(plainEdge, pseudo(fnma(ga, d, ab), fma(be, d, ag)), Lanes(4.0f));
+  const Lanes from = select(clear, pseudo(fma(ga, d, ab), fnma(be, d, ag)), Lanes(-4.0f));
+  const Lanes to = select(clear, pseudo(fnma(ga, d, ab), fma(be, d, ag)), Lanes(4.0f));
+  // A wrapped stretch whose gap reaches beyond one end of the hours asked for is an ordinary one there.
+  const Mask wrapped = from > to;
+  const Mask early = wrapped & (from >= last), late = wrapped & (to <= first);
+  const Mask split = without(early | late, wrapped);
+  const Lanes f = select(split, first, select(early, Lanes(-4.0f), from));
+  const Lanes t = select(split, last, select(without(early, late), Lanes(4.0f), to));
+  const Lanes low = largestOfFour(larger(f, first)), high = smallestOfFour(smaller(t, last));
+  const std::uint32_t none = bits(never | (early & late)), halfA = 0x0fu, halfB = task.two ? 0xf0u : 0u;
+  const std::uint32_t alive = ((none & 0x0fu) != 0 ? 0u : halfA) | ((none & 0xf0u) != 0 ? 0u : halfB);
+  answer.found = bits(low < high) & alive;
+  answer.doubtful = bits(raking), answer.cut = bits(split);
+  answer.from[0] = lowHalf(low), answer.from[1] = highHalf(low);
+  answer.to[0] = lowHalf(high), answer.to[1] = highHalf(high);
+  store(answer.edgeFrom, from), store(answer.edgeTo, to);
+}
 
-  for (int pass = 0;; ++pass) {
-    // A wrapped stretch whose gap reaches beyond one end of the hours asked for is an ordinary one there.
-    const Mask wrapped = from > to;
-    const Mask early = wrapped & (from >= piece.last), late = wrapped & (to <= piece.first);
-    const std::uint32_t none = bits(early & late);
-    const Lanes f = select(late, from, select(early, Lanes(-4.0f), from));
-    const Lanes t = select(early, to, select(late, Lanes(4.0f), to));
-    const std::uint32_t still = alive & ~((none & 0x0fu) != 0 ? 0x0fu : 0u) & ~((none & 0xf0u) != 0 ? 0xf0u : 0u);
-    const Mask split = f > t;
-    const Lanes low = largestOfFour(larger(select(split, piece.first, f), piece.first));
-    const Lanes high = smallestOfFour(smaller(select(split, piece.last, t), piece.last));
-    std::uint32_t found = bits(low < high) & still;
-    if (found == 0) return;
-    float l[2] = {lowHalf(low), highHalf(low)}, h[2] = {lowHalf(high), highHalf(high)};
-    if ((found & 0x0fu) != 0 && isCovered(covered, l[0], h[0])) found &= ~0x0fu;
-    if ((found & 0xf0u) != 0 && isCovered(covered, l[1], h[1])) found &= ~0xf0u;
-    if (found == 0) return;
-    const std::uint32_t doubtful = pass == 0 ? bits(raking) & found : 0u;
-    if (doubtful != 0) {
-      alignas(32) float fa[8], ta[8];
-      store(fa, from), store(ta, to);
-      alive = found;
-      if ((doubtful & 0x0fu) != 0 && !job.refine(job.context, point.index, a, doubtful & 0x0fu, fa, ta))
-        alive &= ~0x0fu;
-      if ((doubtful & 0xf0u) != 0 && !job.refine(job.context, point.index, b, doubtful >> 4, fa + 4, ta + 4))
-        alive &= ~0xf0u;
-      if (alive == 0) return;
-      from = load(fa), to = load(ta);
-      continue;
-    }
-    const std::uint32_t cut = bits(split) & found;
-    if (cut != 0) {
-      alignas(32) float fa[8], ta[8];
-      store(fa, f), store(ta, t);
-      for (int half = 0; half < 2; ++half)
-        if ((cut >> (4 * half) & 0x0fu) != 0) {
-          addPieces(fa + 4 * half, ta + 4 * half, piece.from, piece.to, covered, job.grow);
-          found &= ~(0x0fu << (4 * half));
-        }
-    }
-    if ((found & 0x11u) == 0x11u && l[0] <= h[1] + kJoin && l[1] <= h[0] + kJoin) {
-      addCovered(covered, l[0] < l[1] ? l[0] : l[1], h[0] > h[1] ? h[0] : h[1], job.grow);
-      return;
-    }
-    if ((found & 0x01u) != 0) addCovered(covered, l[0], h[0], job.grow);
-    if ((found & 0x10u) != 0) addCovered(covered, l[1], h[1], job.grow);
+// Edge by edge, those in doubt in double precision.
+inline void addCarefully(const CoverJob& job, const Task& task, Answer& answer, int half, Coverage& covered) {
+  float *from = answer.edgeFrom + 4 * half, *to = answer.edgeTo + 4 * half;
+  const std::uint32_t doubtful = answer.doubtful >> (4 * half) & 0x0fu;
+  if (doubtful != 0 &&
+      !job.refine(job.context, job.points[task.point].index, half == 0 ? task.a : task.b, doubtful, from, to))
+    return;
+  addPieces(from, to, task.from, task.to, covered, job.grow);
+}
+
+inline void take(const CoverJob& job, const Task& task, Answer& answer, Coverage& covered) {
+  std::uint32_t found = answer.found;
+  if (found == 0) return;
+  const float *from = answer.from, *to = answer.to;
+  if ((found & 0x0fu) != 0 && isCovered(covered, from[0], to[0])) found &= ~0x0fu;
+  if ((found & 0xf0u) != 0 && isCovered(covered, from[1], to[1])) found &= ~0xf0u;
+  const std::uint32_t careful = (answer.doubtful | answer.cut) & found;
+  if (careful != 0)
+    for (int half = 0; half < 2; ++half)
+      if ((careful >> (4 * half) & 0x0fu) != 0) {
+        addCarefully(job, task, answer, half, covered);
+        found &= ~(0x0fu << (4 * half));
+      }
+  if ((found & 0x11u) == 0x11u && from[0] <= to[1] + kJoin && from[1] <= to[0] + kJoin) {
+    addCovered(covered, from[0] < from[1] ? from[0] : from[1], to[0] > to[1] ? to[0] : to[1], job.grow);
     return;
   }
+  if ((found & 0x01u) != 0) addCovered(covered, from[0], to[0], job.grow);
+  if ((found & 0x10u) != 0) addCovered(covered, from[1], to[1], job.grow);
+}
+
+// Tasks are gathered, solved together and then taken.
+struct Tasks {
+  static constexpr int kMost = 24;
+  int count = 0;
+  Task task[kMost];
+};
+
+inline void finish(CoverJob& job, Tasks& tasks) {
+  Answer answers[Tasks::kMost];
+  for (int i = 0; i < tasks.count; ++i) solve(job, tasks.task[i], answers[i]);
+  for (int i = 0; i < tasks.count; ++i) take(job, tasks.task[i], answers[i], job.covered[tasks.task[i].point]);
+  tasks.count = 0;
 }
 
 // Lanes whose solid is one of those around the group.
@@ -196,29 +215,40 @@ inline std::uint32_t lanesWithin(const CoverJob& job, const TreeLeaf& leaf) {
   return lanes;
 }
 
-inline void addLeaf(const CoverJob& job, const TreeLeaf& leaf, std::uint32_t bothSides, const LeafPiece& piece,
-                    const GroupPoint& point, Coverage& covered) {
+// The quads of a leaf that may hide the sun from a point within some hours become tasks.
+inline void askLeaf(CoverJob& job, const TreeLeaf& leaf, std::uint32_t bothSides, std::uint32_t k, float from, float to,
+                    const ArcDirections* arc, Tasks& tasks) {
+  const GroupPoint& point = job.points[k];
   const auto seen = [&](const float* u, int axis) {
     return (load(u) - Lanes(point.high[axis])) - Lanes(point.low[axis]);
   };
   const Lanes nx = load(leaf.nx), ny = load(leaf.ny), nz = load(leaf.nz);
   const Lanes depth = fma(seen(leaf.x, 0), nx, fma(seen(leaf.y, 1), ny, seen(leaf.z, 2) * nz));
   const std::uint32_t front = bits(depth < Lanes(0.0f));
-  std::uint32_t left = (front | bothSides) & leaf.used;
-  std::uint32_t near = bits(magnitude(depth) <= Lanes(job.contact)) & leaf.used;
+  std::uint32_t left = ((front & ~leaf.flatUp) | bothSides) & leaf.used;
+  // Only what is open, or a solid around the group, can be touched.
+  std::uint32_t near = bothSides == 0 ? 0u : bits(magnitude(depth) <= Lanes(job.contact)) & leaf.used;
   for (; near != 0; near &= near - 1) {
     const int i = lowestBit(near);
-    if (job.touch(job.context, point.index, leaf.quads + static_cast<std::uint32_t>(i), covered)) left &= ~(1u << i);
+    if (job.touch(job.context, point.index, leaf.quads + static_cast<std::uint32_t>(i), job.covered[k]))
+      left &= ~(1u << i);
   }
   while (left != 0) {
-    const int i = lowestBit(left);
+    const auto i = static_cast<std::uint32_t>(lowestBit(left));
     left &= left - 1;
-    int k = i;
     const bool two = left != 0;
-    if (two) k = lowestBit(left), left &= left - 1;
-    const float si = (front >> i & 1u) != 0 ? -1.0f : 1.0f, sk = (front >> k & 1u) != 0 ? -1.0f : 1.0f;
-    addTwo(job, point, piece, leaf.quads + static_cast<std::uint32_t>(i), leaf.quads + static_cast<std::uint32_t>(k),
-           two, halves(si, sk), covered);
+    const std::uint32_t other = two ? static_cast<std::uint32_t>(lowestBit(left)) : i;
+    left &= left - (two ? 1u : 0u);
+    if (tasks.count == Tasks::kMost) finish(job, tasks);
+    tasks.task[tasks.count++] = {k,
+                                 leaf.quads + i,
+                                 leaf.quads + other,
+                                 two,
+                                 (front >> i & 1u) != 0 ? -1.0f : 1.0f,
+                                 (front >> other & 1u) != 0 ? -1.0f : 1.0f,
+                                 from,
+                                 to,
+                                 arc};
   }
 }
 
@@ -255,8 +285,9 @@ struct NodeConstants {
   float turnFirst, turnWest;  // sign * cosine, sign * sine
   float sinAbs, cosAbs;
   bool facing;
-  float radius;  // of the group, seen along the axis
-  float scale;   // bins per unit
+  float steepest;  // of the cone
+  float radius;    // of the group, seen along the axis
+  float scale;     // bins per unit
 };
 
 inline NodeConstants constantsOf(const CoverJob& job) {
@@ -265,6 +296,7 @@ inline NodeConstants constantsOf(const CoverJob& job) {
   k.slope = k.sign * job.rise;
   k.turnFirst = k.sign * job.cosine, k.turnWest = k.sign * job.sine;
   k.sinAbs = __builtin_fabsf(job.sinLatitude), k.cosAbs = __builtin_fabsf(job.cosLatitude);
+  k.steepest = k.slope + __builtin_fabsf(job.cosine) + __builtin_fabsf(job.sine);
   k.facing = job.slab[0] + job.slab[1] + job.slab[2] > 0.0f;
   const float tall = k.sinAbs * job.extent[1] + k.cosAbs * job.extent[2];
   k.radius = __builtin_sqrtf(tall * tall + job.extent[0] * job.extent[0]);
@@ -272,14 +304,16 @@ inline NodeConstants constantsOf(const CoverJob& job) {
   return k;
 }
 
-// Puts the children that may hide the sun at hours not yet covered onto the stack, the nearest on top. Returns the new top.
-inline int openNode(const CoverJob& job, const NodeConstants& k, const TreeNode& node, std::uint64_t covered,
-                    Entry* stack, int top) {
-  const Lanes zero(0.0f), first = load(node.first) - Lanes(job.middle[0]),
-                          west = load(node.west) - Lanes(job.middle[1]),
-                          south = load(node.south) - Lanes(job.middle[2]);
-  const Lanes ex = load(node.east) + Lanes(job.extent[0]), ey = load(node.north) + Lanes(job.extent[1]),
-              ez = load(node.up) + Lanes(job.extent[2]), flat = load(node.flat) + Lanes(k.radius);
+// Boxes as they are seen: which may hide the sun, and at which hours.
+struct Look {
+  std::uint32_t left;
+  Lanes from, to;
+};
+
+// `first`, `west`, `south`: the boxes' middles from the eyes; the rest their extents.
+[[gnu::always_inline]] inline Look look(const CoverJob& job, const NodeConstants& k, Lanes first, Lanes west,
+                                        Lanes south, Lanes ex, Lanes ey, Lanes ez, Lanes flat) {
+  const Lanes zero(0.0f);
   const Lanes sinA(k.sinAbs), cosA(k.cosAbs), slope(k.slope);
   const Lanes w2 = fma(first, first, fma(west, west, Lanes(1e-12f)));
   const Lanes iw = inverseRoot(w2), w = w2 * iw, wb = first * iw, wc = west * iw;
@@ -294,9 +328,7 @@ inline int openNode(const CoverJob& job, const NodeConstants& k, const TreeNode&
   const Lanes sl(job.sinLatitude), cl(job.cosLatitude), ssl(k.sign * job.sinLatitude), scl(k.sign * job.cosLatitude);
   const Lanes gx = -gc, gy = -fma(sl, gb, scl), gz = fms(cl, gb, ssl);
   const Lanes spread = fma(magnitude(gx), ex, fma(magnitude(gy), ey, fma(magnitude(gz), ez, slack)));
-  const Lanes loose =
-      fma(cosA, ey,
-          fma(sinA, ez, fma(slope + Lanes(__builtin_fabsf(job.cosine) + __builtin_fabsf(job.sine)), flat, slack)));
+  const Lanes loose = fma(cosA, ey, fma(sinA, ez, fma(Lanes(k.steepest), flat, slack)));
   Mask ok = (magnitude(f) <= loose) & (f + spread >= zero);
   ok = ok & ((f <= spread + bend) | without(outside, ok));
   // Above the horizon, and before the plane that the points face from.
@@ -305,47 +337,57 @@ inline int openNode(const CoverJob& job, const NodeConstants& k, const TreeNode&
     const Lanes ahead = fma(first, Lanes(job.normal[0]), fma(west, Lanes(job.normal[1]), south * Lanes(job.normal[2])));
     ok = ok & (fma(ex, Lanes(job.slab[0]), fma(ey, Lanes(job.slab[1]), fma(ez, Lanes(job.slab[2]), ahead))) > zero);
   }
-  std::uint32_t left = bits(ok);
-  if (left == 0) return top;
-  // Which hours: the box reaches rt to the sides and rr towards and away from the axis; of it only what lies near the cone counts.
+  Look out{bits(ok), zero, zero};
+  if (out.left == 0) return out;
+  // Which hours: the box reaches rt to the sides and rr towards and away from the axis; of it only what lies near the
+  // cone counts.
   const Lanes along = fma(sinA, ey, cosA * ez);
   const Lanes rr = fma(magnitude(wc), ex, magnitude(wb) * along),
               rt = fma(magnitude(wb), ex, magnitude(wc) * along) * Lanes(1.00001f);
   const Lanes near = w - rr, far = w + rr;
   const Mask around = near <= Lanes(1e-3f);
-  Lanes tl = -rt, th = rt;
-  {
-    // t = L g + (t - L g), where g over the box is known to be -f to the slack and the bend, and L leaves out the vertical.
-    const Lanes tx = -wb, ty = wc * sl, tz = -wc * cl;
-    const Lanes lambda = tz * gz * inverse(fma(gz, gz, Lanes(1e-4f)));
-    const Lanes rest = fma(magnitude(fnma(lambda, gx, tx)), ex,
-                           fma(magnitude(fnma(lambda, gy, ty)), ey, magnitude(fnma(lambda, gz, tz)) * ez));
-    const Lanes wide = fma(fma(magnitude(lambda), bend + slack, rest), Lanes(1.0001f), Lanes(1e-4f));
-    const Lanes centre = -lambda * f;
-    tl = select(outside, larger(tl, centre - wide), tl);
-    th = select(outside, smaller(th, centre + wide), th);
-    left &= bits(around | (tl <= th));
-    if (left == 0) return top;
-  }
+  // t = L g + (t - L g), where g over the box is known to be -f to the slack and the bend, and L leaves out the vertical.
+  const Lanes tx = -wb, ty = wc * sl, tz = -wc * cl;
+  const Lanes lambda = tz * gz * inverse(fma(gz, gz, Lanes(1e-4f)));
+  const Lanes rest = fma(magnitude(fnma(lambda, gx, tx)), ex,
+                         fma(magnitude(fnma(lambda, gy, ty)), ey, magnitude(fnma(lambda, gz, tz)) * ez));
+  const Lanes wide = fma(fma(magnitude(lambda), bend + slack, rest), Lanes(1.0001f), Lanes(1e-4f));
+  const Lanes centre = -lambda * f;
+  const Lanes tl = select(outside, larger(-rt, centre - wide), -rt),
+              th = select(outside, smaller(rt, centre + wide), rt);
+  out.left &= bits(around | (tl <= th));
+  if (out.left == 0) return out;
   const Lanes dl = selectNegative(tl, near, far), dh = selectNegative(th, far, near);
   const Lanes ax = fms(wb, dl, wc * tl), ay = fma(wc, dl, wb * tl), bx = fms(wb, dh, wc * th),
               by = fma(wc, dh, wb * th);
   const Lanes one(1.0f), margin(2e-6f), begin(job.first), end(job.last);
-  Lanes from = flipped(one - ax * inverse(magnitude(ax) + magnitude(ay)), ay) - margin;
-  Lanes to = flipped(one - bx * inverse(magnitude(bx) + magnitude(by)), by) + margin;
-  const Mask wrapped = from > to;
-  const Mask beforeEnd = from <= end, afterBegin = to >= begin;
-  const std::uint32_t meets =
-      bits(around) | (bits(wrapped) & bits(beforeEnd | afterBegin)) | bits(without(wrapped, beforeEnd & afterBegin));
-  left &= meets;
+  const Lanes from = flipped(one - ax * inverse(magnitude(ax) + magnitude(ay)), ay) - margin;
+  const Lanes to = flipped(one - bx * inverse(magnitude(bx) + magnitude(by)), by) + margin;
+  const Mask wrapped = from > to, beforeEnd = from <= end, afterBegin = to >= begin;
+  const Mask meets = around | (wrapped & (beforeEnd | afterBegin)) | without(wrapped, beforeEnd & afterBegin);
+  out.left &= bits(meets);
   const Mask all = around | wrapped;
-  from = larger(select(all, begin, from), begin), to = smaller(select(all, end, to), end);
+  out.from = larger(select(all, begin, from), begin), out.to = smaller(select(all, end, to), end);
+  return out;
+}
+
+// Puts the children that may hide the sun at hours not yet covered onto the stack, the nearest on top. Returns the new
+// top.
+inline int openNode(const CoverJob& job, const NodeConstants& k, const TreeNode& node, std::uint64_t covered,
+                    Entry* stack, int top) {
+  const Lanes first = load(node.first) - Lanes(job.middle[0]), west = load(node.west) - Lanes(job.middle[1]),
+              south = load(node.south) - Lanes(job.middle[2]);
+  const Look seen =
+      look(job, k, first, west, south, load(node.east) + Lanes(job.extent[0]), load(node.north) + Lanes(job.extent[1]),
+           load(node.up) + Lanes(job.extent[2]), load(node.flat) + Lanes(k.radius));
+  std::uint32_t left = seen.left;
   if (left == 0) return top;
-  const Lanes scale(k.scale);
-  left &= ~allIn((from - begin) * scale, (to - begin) * scale, covered);
+  const Lanes scale(k.scale), begin(job.first);
+  left &= ~allIn((seen.from - begin) * scale, (seen.to - begin) * scale, covered);
   if (left == 0) return top;
   alignas(32) float a[8], b[8], distance[8];
-  store(a, from), store(b, to), store(distance, fma(south, south, w2));
+  store(a, seen.from), store(b, seen.to);
+  store(distance, fma(south, south, fma(first, first, west * west)));
   const int bottom = top;
   for (; left != 0; left &= left - 1) {
     const int i = lowestBit(left);
@@ -360,20 +402,35 @@ inline int openNode(const CoverJob& job, const NodeConstants& k, const TreeNode&
   return top;
 }
 
-inline void openLeaf(CoverJob& job, const Entry& entry, std::uint32_t& live) {
+// The group's points, each seen alone: a leaf that one of them must open is of no use to most others.
+inline Look lookFromEach(const CoverJob& job, const NodeConstants& k, const TreeLeaf& leaf) {
+  return look(job, k, Lanes(leaf.first) - load(job.eyeFirst), Lanes(leaf.west) - load(job.eyeWest),
+              Lanes(leaf.south) - load(job.eyeSouth), Lanes(leaf.east + job.margin), Lanes(leaf.north + job.margin),
+              Lanes(leaf.up + job.margin), Lanes(leaf.flat + 2.0f * job.margin));
+}
+
+inline void openLeaf(CoverJob& job, const NodeConstants& constants, const Entry& entry, std::uint32_t& live) {
   const TreeLeaf& leaf = job.leaves[~entry.child];
+  const Look seen = lookFromEach(job, constants, leaf);
+  std::uint32_t left = seen.left & live;
+  if (left == 0) return;
   const std::uint32_t bothSides = leaf.open | (job.withinCount > 0 ? lanesWithin(job, leaf) : 0u);
-  for (float from = entry.from; from < entry.to;) {
-    const ArcDirections* arc = arcFrom(job, from, entry.to);
-    const float to = arc->high < entry.to && arc->high > from ? arc->high : entry.to;
-    const LeafPiece piece{from, to, Lanes(from), Lanes(to), arc};
-    for (std::uint32_t left = live; left != 0; left &= left - 1) {
-      const int k = lowestBit(left);
-      if (!isCovered(job.covered[k], from, to)) addLeaf(job, leaf, bothSides, piece, job.points[k], job.covered[k]);
+  alignas(32) float begin[8], end[8];
+  store(begin, seen.from), store(end, seen.to);
+  Tasks tasks;
+  const std::uint32_t asked = left;
+  for (; left != 0; left &= left - 1) {
+    const int k = lowestBit(left);
+    if (isCovered(job.covered[k], begin[k], end[k])) continue;
+    for (float from = begin[k]; from < end[k];) {
+      const ArcDirections* arc = arcFrom(job, from, end[k]);
+      const float to = arc->high < end[k] && arc->high > from ? arc->high : end[k];
+      askLeaf(job, leaf, bothSides, static_cast<std::uint32_t>(k), from, to, arc, tasks);
+      from = to;
     }
-    from = to;
   }
-  for (std::uint32_t left = live; left != 0; left &= left - 1) {
+  finish(job, tasks);
+  for (left = asked; left != 0; left &= left - 1) {
     const int k = lowestBit(left);
     if (isFull(job.covered[k], job.first, job.last)) live &= ~(1u << k);
   }
@@ -401,7 +458,7 @@ inline void cover(CoverJob& job) {
     if (entry.child >= 0) {
       top = openNode(job, constants, job.nodes[entry.child], bins, stack, top);
     } else {
-      openLeaf(job, entry, live);
+      openLeaf(job, constants, entry, live);
       bins = commonBins(job, live);
     }
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include "umbrage/study/detail/hours_tree.hpp"
 
@@ -27,25 +26,20 @@ std::uint64_t zOrder(const Vec3& p, const Vec3& low, double cell) {
   return code;
 }
 
+// Normals alike to 18 bits count as one: what the corners of one wall's triangles make of it.
 std::uint64_t normalKey(const Vec3& n) {
   std::uint64_t key = 0;
-  for (int k = 0; k < 3; ++k) {
-    std::uint64_t bits;
-    std::memcpy(&bits, &n[k], sizeof bits);
-    key = (key ^ bits) * 0x9e3779b97f4a7c15ull;
-    key ^= key >> 29;
-  }
+  const double length = glm::length(n);
+  if (!(length > 0.0)) return key;
+  for (int k = 0; k < 3; ++k) key = key << 20 | static_cast<std::uint64_t>((n[k] / length + 1.25) * 0x1p18);
   return key;
 }
 
+// Coarse place, normal, place within: 24, 20 and 20 bits.
 struct Key {
-  std::uint64_t place, normal, finer;
+  std::uint64_t order;
   std::uint32_t receiver;
-  bool operator<(const Key& o) const {
-    if (place != o.place) return place < o.place;
-    if (normal != o.normal) return normal < o.normal;
-    return finer != o.finer ? finer < o.finer : receiver < o.receiver;
-  }
+  bool operator<(const Key& o) const { return order != o.order ? order < o.order : receiver < o.receiver; }
 };
 
 }  // namespace
@@ -55,12 +49,15 @@ Groups makeGroups(std::span<const Receiver> receivers, double size) {
   for (const Receiver& r : receivers) box.add(r.position);
   const Vec3 extent = box.size();
   const double widest = std::max({extent.x, extent.y, extent.z, 1e-300});
-  const double coarse = std::max(size > 0.0 ? 2.0 * size : widest, widest / 2097151.0);
-  const double fine = std::max(coarse / 64.0, widest / 2097151.0);
+  const double coarse = std::max(size > 0.0 ? 8.0 * size : widest, widest / 255.0), fine = coarse / 64.0;
   std::vector<Key> keys(receivers.size());
+  std::vector<std::uint64_t> normals(receivers.size());
   for (std::uint32_t i = 0; i < receivers.size(); ++i) {
     const Receiver& r = receivers[i];
-    keys[i] = {zOrder(r.position, box.min, coarse), normalKey(r.normal), zOrder(r.position, box.min, fine), i};
+    normals[i] = i > 0 && r.normal == receivers[i - 1].normal ? normals[i - 1] : normalKey(r.normal);
+    const std::uint64_t hash = normals[i] * 0x9e3779b97f4a7c15ull >> 44;
+    keys[i] = {
+        zOrder(r.position, box.min, coarse) << 40 | hash << 20 | (zOrder(r.position, box.min, fine) & 0x3ffff) << 2, i};
   }
   std::sort(keys.begin(), keys.end());
   std::vector<std::uint32_t> order(keys.size()), begin{0};
@@ -88,9 +85,12 @@ Groups makeGroups(std::span<const Receiver> receivers, double size) {
 SolidBoxes::SolidBoxes(std::vector<Box3> boxes) : boxes_(std::move(boxes)) {
   if (boxes_.empty()) return;
   for (const Box3& b : boxes_) all_.add(b);
-  across_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::cbrt(double(boxes_.size())) * 4.0), 1, 128);
+  // About two cells a box, of about equal sides.
+  const Vec3 size = glm::max(all_.size(), Vec3(1e-9));
+  const double side = std::cbrt(size.x * size.y * size.z / (2.0 * double(boxes_.size())));
+  for (int k = 0; k < 3; ++k) across_[k] = static_cast<std::size_t>(std::clamp(size[k] / side, 1.0, 256.0));
   constexpr std::size_t kLarge = 64;
-  std::vector<std::vector<std::int32_t>> cells(across_ * across_ * across_);
+  std::vector<std::vector<std::int32_t>> cells(across_[0] * across_[1] * across_[2]);
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     std::size_t low[3], high[3], count = 1;
     for (int k = 0; k < 3; ++k) {
@@ -104,7 +104,7 @@ SolidBoxes::SolidBoxes(std::vector<Box3> boxes) : boxes_(std::move(boxes)) {
     for (std::size_t x = low[0]; x <= high[0]; ++x)
       for (std::size_t y = low[1]; y <= high[1]; ++y)
         for (std::size_t z = low[2]; z <= high[2]; ++z)
-          cells[(x * across_ + y) * across_ + z].push_back(static_cast<std::int32_t>(i));
+          cells[(x * across_[1] + y) * across_[2] + z].push_back(static_cast<std::int32_t>(i));
   }
   cellBegin_.push_back(0);
   for (const auto& cell : cells) {
@@ -117,28 +117,30 @@ std::size_t SolidBoxes::cellOf(double v, int axis) const {
   const double width = all_.max[axis] - all_.min[axis];
   if (!(width > 0.0)) return 0;
   return static_cast<std::size_t>(
-      std::clamp((v - all_.min[axis]) / width * double(across_), 0.0, double(across_) - 1.0));
+      std::clamp((v - all_.min[axis]) / width * double(across_[axis]), 0.0, double(across_[axis]) - 1.0));
 }
 
-bool SolidBoxes::meets(std::int32_t box, const Vec3& at, double radius) const {
+bool SolidBoxes::meets(std::int32_t box, const Vec3& low, const Vec3& high) const {
   const Box3& b = boxes_[static_cast<std::size_t>(box)];
-  for (int k = 0; k < 3; ++k)
-    if (at[k] < b.min[k] - radius || at[k] > b.max[k] + radius) return false;
-  return true;
+  return low.x <= b.max.x && low.y <= b.max.y && low.z <= b.max.z && high.x >= b.min.x && high.y >= b.min.y &&
+         high.z >= b.min.z;
 }
 
-void SolidBoxes::find(const Vec3& at, double radius, std::vector<std::int32_t>& out) const {
+void SolidBoxes::find(const Vec3& low, const Vec3& high, std::vector<std::int32_t>& out) const {
   if (boxes_.empty()) return;
   for (const std::int32_t i : large_)
-    if (meets(i, at, radius)) out.push_back(i);
-  std::size_t low[3], high[3];
-  for (int k = 0; k < 3; ++k) low[k] = cellOf(at[k] - radius, k), high[k] = cellOf(at[k] + radius, k);
-  for (std::size_t x = low[0]; x <= high[0]; ++x)
-    for (std::size_t y = low[1]; y <= high[1]; ++y)
-      for (std::size_t z = low[2]; z <= high[2]; ++z) {
-        const std::size_t cell = (x * across_ + y) * across_ + z;
+    if (meets(i, low, high)) out.push_back(i);
+  std::size_t first[3], last[3];
+  for (int k = 0; k < 3; ++k) {
+    if (high[k] < all_.min[k] || low[k] > all_.max[k]) return;
+    first[k] = cellOf(low[k], k), last[k] = cellOf(high[k], k);
+  }
+  for (std::size_t x = first[0]; x <= last[0]; ++x)
+    for (std::size_t y = first[1]; y <= last[1]; ++y)
+      for (std::size_t z = first[2]; z <= last[2]; ++z) {
+        const std::size_t cell = (x * across_[1] + y) * across_[2] + z;
         for (std::uint32_t i = cellBegin_[cell]; i < cellBegin_[cell + 1]; ++i)
-          if (meets(inCells_[i], at, radius) && std::find(out.begin(), out.end(), inCells_[i]) == out.end())
+          if (meets(inCells_[i], low, high) && std::find(out.begin(), out.end(), inCells_[i]) == out.end())
             out.push_back(inCells_[i]);
       }
 }

@@ -9,7 +9,7 @@
 
 namespace umbrage::study::detail {
 
-/// Receivers that lie near each other and face one way, a few at a time, and groups near each other in turn.
+/// Receivers that lie near each other and face one way to 1e-5 radians, a few at a time, and groups near each other in turn.
 class Groups {
  public:
   Groups(std::vector<std::uint32_t> order, std::vector<std::uint32_t> begin)
@@ -31,15 +31,15 @@ class SolidBoxes {
  public:
   SolidBoxes() = default;
   explicit SolidBoxes(std::vector<Box3> boxes);
-  /// Appends those that come nearer to `at` than `radius` along every axis.
-  void find(const Vec3& at, double radius, std::vector<std::int32_t>& out) const;
+  /// Appends those that meet the box from `low` to `high`.
+  void find(const Vec3& low, const Vec3& high, std::vector<std::int32_t>& out) const;
 
  private:
-  [[nodiscard]] bool meets(std::int32_t box, const Vec3& at, double radius) const;
+  [[nodiscard]] bool meets(std::int32_t box, const Vec3& low, const Vec3& high) const;
   [[nodiscard]] std::size_t cellOf(double v, int axis) const;
   std::vector<Box3> boxes_;
   Box3 all_;
-  std::size_t across_ = 0;  ///< cells along each axis
+  std::size_t across_[3] = {0, 0, 0};  ///< cells along each axis
   std::vector<std::uint32_t> cellBegin_;
   std::vector<std::int32_t> inCells_, large_;
 };

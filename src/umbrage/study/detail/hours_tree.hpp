@@ -16,12 +16,14 @@ struct alignas(64) TreeNode {
 
 /// Up to eight quads; unused lanes have no normal.
 struct alignas(64) TreeLeaf {
-  float x[8], y[8], z[8];     ///< a corner, in the scene's axes
-  float nx[8], ny[8], nz[8];  ///< unit normals, outwards where the solid is closed
-  std::int32_t solid[8];      ///< the closed solid it belongs to, or -1
-  std::uint32_t quads;        ///< where its quads begin
-  std::uint32_t used;         ///< bit k: lane k holds one
-  std::uint32_t open;         ///< bit k: it belongs to no closed solid, so that both its sides are asked
+  float first, west, south, east, north, up, flat;  ///< its box, as in a node
+  float x[8], y[8], z[8];                           ///< a corner, in the scene's axes
+  float nx[8], ny[8], nz[8];                        ///< unit normals, outwards where the solid is closed
+  std::int32_t solid[8];                            ///< the closed solid it belongs to, or -1
+  std::uint32_t quads;                              ///< where its quads begin
+  std::uint32_t used;                               ///< bit k: lane k holds one
+  std::uint32_t open;    ///< bit k: it belongs to no closed solid, so that both its sides are asked
+  std::uint32_t flatUp;  ///< bit k: it looks straight up: who sees its outer side is above it, and so is the sun
 };
 
 /// A convex quad, or a triangle that names its last corner twice; counter-clockwise about the leaf's normal.
@@ -70,11 +72,13 @@ struct CoverJob {
   std::int32_t count;
   GroupPoint points[kGroup];
   Coverage covered[kGroup];
-  float middle[3];             ///< in the frame of the legs
-  float extent[3];             ///< half, along east, north and up
-  float normal[3];             ///< in the frame of the legs; 0: all ways
-  float slab[3];               ///< its absolute values along east, north and up
-  const std::int32_t* within;  ///< closed solids whose boxes meet the group's
+  float eyeFirst[kGroup], eyeWest[kGroup], eyeSouth[kGroup];  ///< the points in the frame of the legs
+  float margin;                                               ///< by how much that is rounded
+  float middle[3];                                            ///< in the frame of the legs
+  float extent[3];                                            ///< half, along east, north and up
+  float normal[3];                                            ///< in the frame of the legs; 0: all ways
+  float slab[3];                                              ///< its absolute values along east, north and up
+  const std::int32_t* within;                                 ///< closed solids whose boxes meet the group's
   std::int32_t withinCount;
   float contact;  ///< how near to a plane a point touches it
   // what plain arithmetic does not settle

@@ -47,12 +47,53 @@ struct SunLeg {
   std::vector<Knot> knots;  ///< at equal steps of h
   double knotStart, knotStep;
 
+  double middleHeight = 0.0,
+         heightRange = 0.0;  ///< of all heights: the middle, and how far from the least to the greatest
+
+  /// The same at equal steps of pseudo-angles, with slopes by h and by pseudo-angle, for use without trigonometry.
+  static constexpr int kPseudoKnots = 128;  ///< per unit
+  struct PseudoKnot {
+    double height, heightPerPseudo, heightSlope, time, timePerPseudo;
+  };
+  std::vector<PseudoKnot> pseudoKnots;
+  double pseudoStart = 0.0;
+  struct Height {
+    double height, slope;
+  };
+  /// At a pseudo-angle; kept within the leg.
+  [[nodiscard]] Height heightAt(double pseudo) const {
+    const auto [a, b, t] = pseudoCell(pseudo);
+    return {hermite(a->height, b->height, a->heightPerPseudo, b->heightPerPseudo, t),
+            a->heightSlope + t * (b->heightSlope - a->heightSlope)};
+  }
+  [[nodiscard]] double timeAt(double pseudo) const {
+    const auto [a, b, t] = pseudoCell(pseudo);
+    return hermite(a->time, b->time, a->timePerPseudo, b->timePerPseudo, t);
+  }
+
   [[nodiscard]] double height(double h) const;
   [[nodiscard]] double heightSlope(double h) const;
   [[nodiscard]] double time(double h) const;
+  [[nodiscard]] double timeSlope(double h) const;
   [[nodiscard]] const SunArc& arcAt(double pseudo) const {
     const int i = static_cast<int>((pseudo - first) / (last - first) * kArcs);
     return arcs[static_cast<std::size_t>(i < 0 ? 0 : i >= kArcs ? kArcs - 1 : i)];
+  }
+
+ private:
+  struct PseudoCell {
+    const PseudoKnot *a, *b;
+    double t;
+  };
+  [[nodiscard]] PseudoCell pseudoCell(double pseudo) const {
+    const double end = static_cast<double>(pseudoKnots.size() - 1) - 1e-9, at = (pseudo - pseudoStart) * kPseudoKnots;
+    const double x = at < 0.0 ? 0.0 : at > end ? end : at;
+    const auto i = static_cast<std::size_t>(x);
+    return {&pseudoKnots[i], &pseudoKnots[i + 1], x - static_cast<double>(i)};
+  }
+  static double hermite(double a, double b, double slopeA, double slopeB, double t) {
+    const double d = b - a, p = slopeA / kPseudoKnots, q = slopeB / kPseudoKnots;
+    return a + t * (p + t * (3.0 * d - 2.0 * p - q + t * (p + q - 2.0 * d)));
   }
 };
 
