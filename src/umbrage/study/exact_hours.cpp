@@ -62,9 +62,9 @@ bool useWide(bool asked) {
 
 struct ReadyLeg {
   const SunLeg* leg;
-  std::array<ArcDirections, SunLeg::kArcs> arcs;
+  std::vector<ArcDirections> arcs;
 
-  ReadyLeg(const SunLeg& l, const detail::SkyFrame& f) : leg(&l) {
+  ReadyLeg(const SunLeg& l, const detail::SkyFrame& f) : leg(&l), arcs(l.arcs.size()) {
     for (std::size_t i = 0; i < arcs.size(); ++i) {
       const detail::SunArc& a = l.arcs[i];
       const Vec3 rise = a.rise * f.south, cosine = f.first + a.cosine * f.south, sine = f.west + a.sine * f.south;
@@ -135,25 +135,22 @@ struct GroupContext {
     return s;
   }
 
-  // The hours on the inner side of edge k; false when there are none.
-  bool edge(const Seen& s, int k, float& from, float& to) const {
+  // Through edge k and the eye, its normal to the inner side; 0 for an edge without length.
+  [[nodiscard]] Vec3 side(const Seen& s, int k) const {
     const Vec3 &a = s.corner[k], &b = s.corner[(k + 1) & 3];
-    from = -4.0f, to = 4.0f;
-    if (a == b) return true;
-    const Vec3 plane = glm::cross(a, b) * (glm::dot(s.area, s.corner[0]) < 0.0 ? -1.0 : 1.0);
-    const detail::SideHours hoursOfEdge = detail::hoursInside(leg, hours.frame.turning(plane));
-    if (hoursOfEdge.kind == detail::SideHours::Kind::between)
-      from = float(hoursOfEdge.from), to = float(hoursOfEdge.to);
-    return hoursOfEdge.kind != detail::SideHours::Kind::never;
+    if (a == b) return Vec3(0.0);
+    return hours.frame.turning(glm::cross(a, b) * (glm::dot(s.area, s.corner[0]) < 0.0 ? -1.0 : 1.0));
   }
 };
 
-bool refineEdges(void* context, std::uint32_t point, std::uint32_t quad, std::uint32_t lanes, float* from, float* to) {
+bool refineEdges(void* context, std::uint32_t point, std::uint32_t quad, std::uint32_t lanes, std::uint32_t arc,
+                 float first, float last, float* from, float* to) {
   const auto& group = *static_cast<const GroupContext*>(context);
   const GroupContext::Seen seen = group.see(point, quad);
   for (; lanes != 0; lanes &= lanes - 1) {
     const int k = std::countr_zero(lanes);
-    if (!group.edge(seen, k, from[k], to[k])) return false;
+    if (!detail::hoursInside(group.leg, group.leg.arcs[arc], group.side(seen, k), first, last, from[k], to[k]))
+      return false;
   }
   return true;
 }
@@ -167,25 +164,13 @@ bool standsOn(const GroupContext::Seen& s, const Vec3& unit, double margin) {
   return true;
 }
 
-// The stretches in which four sides' hours overlap, by cutting out where each is not.
-void addOverlap(const float* from, const float* to, const SunLeg& leg, Coverage& covered) {
-  std::vector<std::pair<float, float>> pieces{{float(leg.first), float(leg.last)}};
-  for (int k = 0; k < 4; ++k) {
-    std::vector<std::pair<float, float>> next;
-    const auto keep = [&](float a, float b) {
-      if (a < b) next.emplace_back(a, b);
-    };
-    for (const auto& [a, b] : pieces) {
-      if (from[k] <= to[k]) {
-        keep(std::max(a, from[k]), std::min(b, to[k]));
-      } else {
-        keep(a, std::min(b, to[k]));
-        keep(std::max(a, from[k]), b);
-      }
-    }
-    pieces = std::move(next);
-  }
-  for (const auto& [a, b] : pieces) detail::addPlain(covered, a, b, growCoverage);
+detail::Stretches overlap(const detail::Stretches& a, const detail::Stretches& b) {
+  detail::Stretches out;
+  for (const auto& x : a)
+    for (const auto& y : b)
+      if (std::max(x.first, y.first) < std::min(x.second, y.second))
+        out.emplace_back(std::max(x.first, y.first), std::min(x.second, y.second));
+  return out;
 }
 
 bool touchQuad(void* context, std::uint32_t point, std::uint32_t quad, Coverage& covered) {
@@ -203,10 +188,12 @@ bool touchQuad(void* context, std::uint32_t point, std::uint32_t quad, Coverage&
   // Seen from just above the surface, on the side the receiver faces.
   const Vec3 lift = unit * (std::copysign(nothing, facing) + depth);
   for (Vec3& corner : seen.corner) corner -= lift;
-  float from[4], to[4];
-  for (int k = 0; k < 4; ++k)
-    if (!group.edge(seen, k, from[k], to[k])) return true;
-  addOverlap(from, to, group.leg, covered);
+  detail::Stretches dark{{group.leg.first, group.leg.last}};
+  for (int k = 0; k < 4 && !dark.empty(); ++k) {
+    const Vec3 side = group.side(seen, k);
+    if (side != Vec3(0.0)) dark = overlap(dark, detail::stretchesInside(group.leg, side));
+  }
+  for (const auto& [from, to] : dark) detail::addPlain(covered, float(from), float(to), growCoverage);
   return true;
 }
 
@@ -283,24 +270,18 @@ class Worker {
     });
   }
 
-  // The hours in which the sun is behind the receivers' own plane. False when that is all of them.
-  bool coverBehind(const SunLeg& leg, const Vec3& normal, Coverage& covered) const {
-    if (normal == Vec3(0.0)) return true;
-    const detail::SideHours before = detail::hoursInside(leg, hours_.frame.turning(normal));
-    if (before.kind == detail::SideHours::Kind::never) return false;
-    if (before.kind == detail::SideHours::Kind::always) return true;
-    const auto cover = [&](double from, double to) {
-      if (std::max(from, leg.first) < std::min(to, leg.last))
-        detail::addPlain(covered, float(std::max(from, leg.first)), float(std::min(to, leg.last)), growCoverage);
+  // The hours in which the sun is behind a receiver's own plane.
+  void coverBehind(const SunLeg& leg, const Vec3& normal, Coverage& covered) const {
+    if (normal == Vec3(0.0)) return;
+    double dark = leg.first;
+    const auto cover = [&](double to) {
+      if (dark < to) detail::addPlain(covered, float(dark), float(to), growCoverage);
     };
-    if (before.from <= before.to) {
-      if (before.to <= leg.first || before.from >= leg.last) return false;
-      cover(leg.first, before.from), cover(before.to, leg.last);
-    } else {
-      if (before.to <= leg.first && before.from >= leg.last) return false;
-      cover(before.to, before.from);
+    for (const auto& [from, to] : detail::stretchesInside(leg, hours_.frame.turning(normal))) {
+      cover(from);
+      dark = to;
     }
-    return true;
+    cover(leg.last);
   }
 
   static void copyStart(const Coverage& from, Coverage& to) {
@@ -315,16 +296,16 @@ class Worker {
     job.rise = float(leg.whole.rise), job.cosine = float(leg.whole.cosine), job.sine = float(leg.whole.sine);
     job.error = float(leg.wholeError);
     job.first = float(leg.first), job.last = float(leg.last);
-    job.arcs = ready.arcs.data();
+    job.arcs = ready.arcs.data(), job.arcCount = static_cast<std::int32_t>(ready.arcs.size());
     job.context = &context;
     Coverage start{};
     for (int i = 0; i < job.count; ++i) {
       const auto k = static_cast<std::size_t>(i);
       job.covered[i] = emptyCoverage(rooms_.rooms[k], leg);
-      if (i > 0 && normals_[k] == normals_[0])
+      if (i > 0 && normals_[k] == normals_[0] && start.count < 8)
         copyStart(start, job.covered[i]);
-      else if (!coverBehind(leg, normals_[k], job.covered[i]))
-        detail::addPlain(job.covered[i], job.first, job.last, growCoverage);
+      else
+        coverBehind(leg, normals_[k], job.covered[i]);
       if (i == 0) start = job.covered[0];
     }
     if (!hours_.tree.nodes.empty()) wide_ ? detail::coverWide(job) : detail::coverPlain(job);

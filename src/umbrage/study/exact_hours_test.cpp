@@ -2,17 +2,37 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
+#include "hours/scenes.hpp"
+#include "umbrage/sun/sun_path.hpp"
+
 namespace umbrage::study {
 namespace {
 
-sun::Instant utc(int year, unsigned month, unsigned day, int hour) {
-  return std::chrono::sys_days(std::chrono::year(year) / std::chrono::month(month) / std::chrono::day(day)) +
-         std::chrono::hours(hour);
+using namespace std::chrono_literals;
+using hours_tests::sceneOf;
+using std::chrono::milliseconds;
+
+const sun::Place kVienna{Angle::degrees(48.2), Angle::degrees(16.37)};
+
+sun::Instant utc(std::chrono::year_month_day date) { return std::chrono::sys_days(date); }
+SunCourse dayOf(std::chrono::year_month_day date, const sun::Place& place = kVienna, const SunModel& model = {}) {
+  return SunCourse::make(place, {utc(date), utc(date) + 24h}, model);
+}
+double seconds(milliseconds t) { return double(t.count()) / 1000.0; }
+
+SunHours hoursAt(const scene::Scene& s, const std::vector<Receiver>& receivers, const SunCourse& course,
+                 const ExactHoursOptions& options = {}) {
+  const auto built = ExactHours::build(s, course.place(), options);
+  EXPECT_TRUE(built);
+  auto hours = built->at(receivers, course);
+  EXPECT_TRUE(hours);
+  return std::move(*hours);
 }
 
-// A square court, 30 m wide within, with walls 20 m high; the middle of the foot of the wall to the north, facing the court.
-TEST(ExactHours, courtyard) {
-  const sun::Place place{Angle::degrees(48.2), Angle::degrees(16.37)};
+// Walls without thickness around a square court of 30 m, 20 m high.
+mesh::Mesh court() {
   mesh::Mesh m;
   for (const double z : {0.0, 20.0})
     for (const Vec2& c : {Vec2(-15, -15), Vec2(15, -15), Vec2(15, 15), Vec2(-15, 15)})
@@ -22,18 +42,199 @@ TEST(ExactHours, courtyard) {
     m.triangles.push_back({i, k, k + 4});
     m.triangles.push_back({i, k + 4, i + 4});
   }
-  scene::Scene s;
-  s.materials.push_back({});
-  s.meshes.push_back(std::make_shared<const mesh::Mesh>(std::move(m)));
-  s.instances.push_back({"walls", 0});
-  const auto hours = ExactHours::build(s, place);
-  ASSERT_TRUE(hours);
-  const auto course = SunCourse::make(place, {utc(2026, 9, 17, 22), utc(2026, 9, 18, 22)});
-  const Receiver foot{{0, 15, 0}, {0, -1, 0}};
-  const auto lit = hours->at({&foot, 1}, course);
-  ASSERT_TRUE(lit);
-  EXPECT_NEAR(double(lit->total(0).count()) / 1000.0, 3.65829 * 3600.0,
-              1.0);  // counted second by second against the opening
+  return m;
+}
+
+TEST(ExactHours, courtyard) {
+  // The middle of the foot of the wall to the north. By counting seconds against the court's opening: 3.6583 h at the very foot,
+  // 3.6661 h five centimetres above it.
+  const SunCourse course = dayOf(2026y / std::chrono::September / 18);
+  const SunHours lit = hoursAt(sceneOf(court()), {{{0, 15, 0}, {0, -1, 0}}, {{0, 15, 0.05}, {0, -1, 0}}}, course);
+  EXPECT_NEAR(seconds(lit.total(0)), 3.6583 * 3600, 1.0);
+  EXPECT_NEAR(seconds(lit.total(1)), 3.6661 * 3600, 1.0);
+  EXPECT_EQ(lit.lit(0).size(), 1u);
+  EXPECT_EQ(lit.longest(0), lit.total(0));
+}
+
+TEST(ExactHours, agreesWithARayEverySecond) {
+  unsigned seed = 1;
+  for (const auto& named : hours_tests::fiveScenes(6)) {
+    const hours_tests::Rays rays(named.scene);
+    hours_tests::Random random(seed++);
+    const auto all = hours_tests::placed(rays, 10, random);
+    std::vector<Receiver> receivers;
+    for (const auto& p : all) receivers.push_back(p.receiver);
+    const SunCourse course = dayOf(2026y / std::chrono::March / 20);
+    const SunHours lit = hoursAt(named.scene, receivers, course);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      EXPECT_EQ(hours_tests::disagreements(rays, all[i], lit.lit(i), course), 0) << named.name << ' ' << i;
+  }
+}
+
+void expectSame(const SunHours& a, const SunHours& b, double tolerance) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(seconds(a.total(i)), seconds(b.total(i)), tolerance) << i;
+}
+
+TEST(ExactHours, sameWithAndWithoutWideLanesAndInAnyNumberOfThreads) {
+  hours_tests::Random random(5);
+  for (const auto& named : hours_tests::fiveScenes(6)) {
+    const hours_tests::Rays rays(named.scene);
+    std::vector<Receiver> receivers;
+    for (const auto& p : hours_tests::placed(rays, 2000, random)) receivers.push_back(p.receiver);
+    const SunCourse course = dayOf(2026y / std::chrono::May / 2);
+    const SunHours wide = hoursAt(named.scene, receivers, course, {.threads = 1});
+    expectSame(wide, hoursAt(named.scene, receivers, course, {.threads = 1, .wide = false}), 0.5);
+    const SunHours threads = hoursAt(named.scene, receivers, course, {.threads = 3});
+    for (std::size_t i = 0; i < receivers.size(); ++i)
+      EXPECT_TRUE(std::ranges::equal(wide.lit(i), threads.lit(i))) << named.name << ' ' << i;
+  }
+}
+
+TEST(ExactHours, manyStretchesAreAllKept) {
+  // A fence of 300 posts, 5 cm wide, every 20 cm, to the south.
+  mesh::Mesh m;
+  for (int i = 0; i < 300; ++i) hours_tests::addBox(m, {-30 + 0.2 * i, -2}, {0.025, 0.01}, 0, -1, 50);
+  const scene::Scene fence = sceneOf(std::move(m));
+  const SunCourse course = dayOf(2026y / std::chrono::March / 20);
+  const hours_tests::Rays rays(fence);
+  const hours_tests::Placed eye{{{0.03, 0, 0}, {0, 0, 1}}};
+  const SunHours lit = hoursAt(fence, {eye.receiver}, course);
+  EXPECT_GT(lit.lit(0).size(), 100u);
+  EXPECT_EQ(hours_tests::disagreements(rays, eye, lit.lit(0), course), 0);
+}
+
+TEST(ExactHours, surfacesThatTouchTheReceiver) {
+  // A box to the height of 10 m, from -5 to 5.
+  mesh::Mesh m;
+  hours_tests::addBox(m, {0, 0}, {5, 5}, 0, 0, 10);
+  const scene::Scene box = sceneOf(std::move(m));
+  const SunCourse course = dayOf(2026y / std::chrono::March / 20);
+  const SunHours free = hoursAt(sceneOf({}), {{{0, 0, 0}, {0, 0, 1}}, {{0, 0, 0}, {0, -1, 0}}}, course);
+  EXPECT_EQ(free.total(0), course.upTime());
+  const SunHours lit = hoursAt(box,
+                               {{{1, 2, 10}, {0, 0, 1}},   // on the roof
+                                {{-5, 2, 10}, {0, 0, 1}},  // on its edge
+                                {{5, -5, 10}, {0, 0, 1}},  // at its corner
+                                {{1, -5, 4}, {0, -1, 0}},  // on the wall to the south
+                                {{5, -5, 4}, {0, -1, 0}},  // on its edge
+                                {{0, 0, 5}, {}},           // inside
+                                {{0, 0, 5}, {0, -1, 0}}},  // inside
+                               course);
+  for (const std::size_t i : {0u, 1u, 2u}) EXPECT_NEAR(seconds(lit.total(i)), seconds(free.total(0)), 1.0) << i;
+  for (const std::size_t i : {3u, 4u}) EXPECT_NEAR(seconds(lit.total(i)), seconds(free.total(1)), 1.0) << i;
+  EXPECT_EQ(lit.total(5), 0ms);
+  EXPECT_EQ(lit.total(6), 0ms);
+}
+
+TEST(ExactHours, aSlopeHidesWhatIsBehindItWhateverTheNormalSays) {
+  // A plane that falls to the north at 45 degrees; the receiver on it, once with the slope's normal and once upright.
+  mesh::Mesh m;
+  m.positions = {{-1000, -1000, 1000}, {1000, -1000, 1000}, {1000, 1000, -1000}, {-1000, 1000, -1000}};
+  m.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const SunCourse course = dayOf(2026y / std::chrono::March / 20);
+  const SunHours lit = hoursAt(sceneOf(std::move(m)), {{{3, 10, -10}, {0, 1, 1}}, {{3, 10, -10}, {0, 0, 1}}}, course);
+  const SunHours free = hoursAt(sceneOf({}), {{{3, 10, -10}, {0, 1, 1}}}, course);
+  EXPECT_NEAR(seconds(lit.total(0)), seconds(free.total(0)), 1.0);
+  EXPECT_NEAR(seconds(lit.total(1)), seconds(free.total(0)), 1.0);
+}
+
+TEST(ExactHours, farFromTheOrigin) {
+  hours_tests::Random random(11);
+  scene::Scene here = sceneOf(hours_tests::boxes(4, 22, random));
+  const hours_tests::Rays rays(here);
+  std::vector<Receiver> receivers;
+  for (const auto& p : hours_tests::placed(rays, 200, random)) receivers.push_back(p.receiver);
+  const SunCourse course = dayOf(2026y / std::chrono::June / 21);
+  const SunHours near = hoursAt(here, receivers, course);
+  const Vec3 far(4.5e6, 5.2e6, 300);
+  here.instances[0].toWorld = Mat4(1.0);
+  here.instances[0].toWorld[3] = Vec4(far, 1.0);
+  for (Receiver& r : receivers) r.position += far;
+  expectSame(near, hoursAt(here, receivers, course), 5.0);  // corners are rounded anew about another origin
+}
+
+TEST(ExactHours, polarDaysAndNights) {
+  const sun::Place north{Angle::degrees(78.2), Angle::degrees(15.6)};
+  const SunCourse day = dayOf(2026y / std::chrono::June / 21, north),
+                  night = dayOf(2026y / std::chrono::December / 21, north);
+  EXPECT_EQ(day.upTime(), 24h);
+  EXPECT_TRUE(night.up().empty());
+  const SunHours lit = hoursAt(sceneOf(court()), {{{0, 0, 19}, {0, 0, 1}}, {{25, 25, 0}, {0, 0, 1}}}, day);
+  EXPECT_EQ(lit.total(0), 24h);
+  EXPECT_LT(lit.total(1), 24h);
+  EXPECT_EQ(hoursAt(sceneOf(court()), {{{0, 0, 19}, {0, 0, 1}}}, night).total(0), 0ms);
+}
+
+TEST(ExactHours, wholeDayInShadeAndNoReceivers) {
+  mesh::Mesh m;
+  hours_tests::addBox(m, {0, 0}, {50, 50}, 0, 5, 6);
+  const SunCourse course = dayOf(2026y / std::chrono::December / 21);
+  EXPECT_EQ(hoursAt(sceneOf(court()), {}, course).size(), 0u);
+  EXPECT_LT(hoursAt(sceneOf(std::move(m)), {{{0, 30, 4.9}, {0, 0, 1}}}, course).total(0), course.upTime());
+}
+
+TEST(ExactHours, stopsWhenAsked) {
+  const auto built = ExactHours::build(sceneOf(court()), kVienna);
+  const std::vector<Receiver> receivers(5000, {{0, 0, 1}, {0, 0, 1}});
+  const auto stopped =
+      built->at(receivers, dayOf(2026y / std::chrono::March / 20), [](double, std::string_view) { return false; });
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
+}
+
+TEST(SunHours, runs) {
+  const sun::Instant t{};
+  const SunHours hours({0, 3, 3}, {{t, t + 30min}, {t + 1h, t + 3h}, {t + 4h, t + 5h}});
+  EXPECT_EQ(hours.total(0), 3h + 30min);
+  EXPECT_EQ(hours.longest(0), 2h);
+  EXPECT_EQ(hours.runs(0, 60min).count, 2u);
+  EXPECT_EQ(hours.runs(0, 60min).total, 3h);
+  EXPECT_EQ(hours.total(1), 0ms);
+}
+
+// ---- the course
+
+TEST(SunCourse, isTheSunOfTheRoomBelow) {
+  for (const auto refraction : {sun::Refraction::none, sun::Refraction::standard}) {
+    const SunCourse course = dayOf(2026y / std::chrono::September / 23, kVienna, {refraction, SunPoint::centre});
+    for (sun::Instant t = course.span().from; t < course.span().to; t += 437s)
+      EXPECT_LT(glm::length(course.towards(t) - sun::eastNorthUp(sun::sunPosition(kVienna, t, refraction))), 1e-8);
+  }
+}
+
+TEST(SunCourse, riseAndSetAreThoseOfTheSunDay) {
+  const auto date = 2026y / std::chrono::June / 21;
+  const SunCourse course = dayOf(date);
+  const auto day = sun::sunDay(kVienna, *sun::parseZone("+00:00"), date);
+  ASSERT_EQ(course.up().size(), 1u);
+  EXPECT_LT(std::abs((course.up()[0].from - *day->rise).count()), 5);
+  EXPECT_LT(std::abs((course.up()[0].to - *day->set).count()), 5);
+}
+
+TEST(SunCourse, refractionAndTheUpperLimbLengthenTheDay) {
+  const auto date = 2026y / std::chrono::March / 20;
+  const milliseconds plain = dayOf(date).upTime();
+  const milliseconds limb = dayOf(date, kVienna, {sun::Refraction::none, SunPoint::upperLimb}).upTime();
+  const milliseconds both = dayOf(date, kVienna, {sun::Refraction::standard, SunPoint::upperLimb}).upTime();
+  // The sun climbs by 15 degrees an hour times cos 48.2 degrees.
+  EXPECT_NEAR(seconds(limb - plain), 2 * 0.267 * 240 / std::cos(48.2 * std::numbers::pi / 180), 3.0);
+  EXPECT_GT(both - limb, 5min);
+  EXPECT_LT(both - limb, 8min);
+}
+
+TEST(ExactHours, refractionAgreesWithARayEverySecond) {
+  hours_tests::Random random(21);
+  const scene::Scene boxes = sceneOf(hours_tests::boxes(5, 22, random));
+  const hours_tests::Rays rays(boxes);
+  const auto all = hours_tests::placed(rays, 20, random);
+  std::vector<Receiver> receivers;
+  for (const auto& p : all) receivers.push_back(p.receiver);
+  const SunCourse course =
+      dayOf(2026y / std::chrono::October / 20, kVienna, {sun::Refraction::standard, SunPoint::upperLimb});
+  const SunHours lit = hoursAt(boxes, receivers, course);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    EXPECT_EQ(hours_tests::disagreements(rays, all[i], lit.lit(i), course), 0) << i;
 }
 
 }  // namespace

@@ -203,6 +203,7 @@ struct CourseMaker {
       const double slope = leg.heightSlope(h), height = leg.height(h);
       leg.pseudoKnots.push_back({height, slope * perPseudo, slope, leg.time(h), leg.timeSlope(h) * perPseudo});
       least = std::min(least, height), most = std::max(most, height);
+      leg.steepest = std::max(leg.steepest, std::abs(slope));
     }
     leg.middleHeight = 0.5 * (least + most), leg.heightRange = most - least;
   }
@@ -213,18 +214,34 @@ struct CourseMaker {
     leg.whole = sectionThrough(height, 0.5 * (leg.firstAngle + leg.lastAngle), std::max(0.5 * all, 1e-3));
     leg.whole.low = leg.first, leg.whole.high = leg.last;
     leg.wholeError = 1.05 * largestError(leg.whole, height, leg.firstAngle, leg.lastAngle, 256) + 1e-7;
-    for (int i = 0; i < SunLeg::kArcs; ++i) {
-      const double middle = detail::angleOf(leg.first + (leg.last - leg.first) * (i + 0.5) / SunLeg::kArcs);
-      SunArc& arc = leg.arcs[static_cast<std::size_t>(i)];
+    for (int count = SunLeg::kFewestArcs; !fitArcs(leg, count) && count < SunLeg::kMostArcs;) count *= 2;
+  }
+
+  // False when parts as narrow as one of `count` are not met.
+  static bool fitArcs(SunLeg& leg, int count) {
+    const auto height = [&](double h) { return leg.height(h); };
+    const double all = leg.lastAngle - leg.firstAngle;
+    leg.arcs.clear();
+    bool fine = true;
+    for (int i = 0; i < count; ++i) {
+      const auto edge = [&](double k) { return detail::angleOf(leg.first + (leg.last - leg.first) * k / count); };
+      const double middle = edge(i + 0.5);
+      SunArc arc{};
       for (double half = std::max(all, 1e-3);; half *= 0.75) {
-        const double low = std::max(middle - half, leg.firstAngle), high = std::min(middle + half, leg.lastAngle);
-        arc = sectionThrough(height, 0.5 * (low + high), std::max(0.5 * (high - low), 1e-3));
-        arc.low = detail::pseudoAngle(bounded(low)), arc.high = detail::pseudoAngle(bounded(high));
-        if (low <= leg.firstAngle) arc.low = leg.first;
-        if (high >= leg.lastAngle) arc.high = leg.last;
-        if (half < all / 256.0 || largestError(arc, height, low, high, 16) <= SunLeg::kArcError) break;
+        const double low = std::max(std::min(middle - half, edge(i)), leg.firstAngle);
+        const double high = std::min(std::max(middle + half, edge(i + 1.0)), leg.lastAngle);
+        arc = sectionThrough(height, 0.5 * (low + high), std::max(0.5 * (high - low), 1e-5));
+        arc.low = low <= leg.firstAngle ? leg.first : detail::pseudoAngle(bounded(low));
+        arc.high = high >= leg.lastAngle ? leg.last : detail::pseudoAngle(bounded(high));
+        if (largestError(arc, height, low, high, 16) <= SunLeg::kArcError) break;
+        if (middle - half > edge(i)) {
+          fine = false;
+          break;
+        }
       }
+      leg.arcs.push_back(arc);
     }
+    return fine;
   }
 
   void make() {
@@ -245,13 +262,27 @@ struct CourseMaker {
     course.legs_ = std::make_shared<const std::vector<SunLeg>>(std::move(legs));
   }
 
+  // Cut where the sun passes under the pole, and in the middle where that leaves too long a leg.
   void addLegs(double from, double to, std::vector<SunLeg>& legs) const {
+    std::vector<double> cuts = wraps(from, to);
+    cuts.push_back(to);
     double begin = from;
-    for (const double wrap : wraps(from, to)) {
-      if (wrap - begin > 1e-3) legs.push_back(leg(begin, wrap, begin != from, true));
-      begin = wrap;
+    for (const double cut : cuts) {
+      const bool under = begin != from, wrapsAtEnd = cut != to;
+      if (cut - begin > 1e-3) addLeg(begin, cut, under, wrapsAtEnd, legs);
+      begin = cut;
     }
-    if (to - begin > 1e-3) legs.push_back(leg(begin, to, begin != from, false));
+  }
+
+  void addLeg(double from, double to, bool wrapsAtStart, bool wrapsAtEnd, std::vector<SunLeg>& legs) const {
+    const double first = wrapsAtStart ? -kPi : angle(from), last = wrapsAtEnd ? kPi : angle(to);
+    if (last - first <= SunLeg::kLongest) {
+      legs.push_back(leg(from, to, wrapsAtStart, wrapsAtEnd));
+      return;
+    }
+    const double middle = timeOf(0.5 * (first + last), 0.5 * (from + to));
+    legs.push_back(leg(from, middle, wrapsAtStart, false));
+    legs.push_back(leg(middle, to, false, wrapsAtEnd));
   }
 };
 

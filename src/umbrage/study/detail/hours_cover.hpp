@@ -166,8 +166,8 @@ inline void solve(const CoverJob& job, const Task& task, Answer& answer) {
 inline void addCarefully(const CoverJob& job, const Task& task, Answer& answer, int half, Coverage& covered) {
   float *from = answer.edgeFrom + 4 * half, *to = answer.edgeTo + 4 * half;
   const std::uint32_t doubtful = answer.doubtful >> (4 * half) & 0x0fu;
-  if (doubtful != 0 &&
-      !job.refine(job.context, job.points[task.point].index, half == 0 ? task.a : task.b, doubtful, from, to))
+  if (doubtful != 0 && !job.refine(job.context, job.points[task.point].index, half == 0 ? task.a : task.b, doubtful,
+                                   static_cast<std::uint32_t>(task.arc - job.arcs), task.from, task.to, from, to))
     return;
   addPieces(from, to, task.from, task.to, covered, job.grow);
 }
@@ -252,18 +252,27 @@ inline void askLeaf(CoverJob& job, const TreeLeaf& leaf, std::uint32_t bothSides
   }
 }
 
-// The arc that is right from `from` on for longest, and how far.
-inline const ArcDirections* arcFrom(const CoverJob& job, float from, float to) {
-  const float scale = 64.0f / (job.last - job.first);
+// The arc for a stretch that begins at `from`, and how far it is good: to `to`, or less.
+struct Arc {
+  const ArcDirections* directions;
+  float to;
+};
+inline Arc arcFrom(const CoverJob& job, float from, float to) {
+  const int count = job.arcCount;
+  const float scale = static_cast<float>(count) / (job.last - job.first);
   const auto index = [&](float p) {
     const int i = static_cast<int>((p - job.first) * scale);
-    return i < 0 ? 0 : i > 63 ? 63 : i;
+    return i < 0 ? 0 : i >= count ? count - 1 : i;
   };
   const ArcDirections* best = job.arcs + index(0.5f * (from + to));
-  if (best->low <= from && best->high >= to) return best;
+  if (best->low <= from && best->high >= to) return {best, to};
+  // The last one that reaches back to the beginning.
   int i = index(from);
-  while (i < 63 && job.arcs[i + 1].low <= from) ++i;
-  return job.arcs + i;
+  for (int step = count / 2; step > 0; step /= 2)
+    while (i + step < count && job.arcs[i + step].low <= from) i += step;
+  const float good = job.arcs[i].high, least = from + 0.5f / scale;
+  const float end = good > least ? good : least;
+  return {job.arcs + i, end < to ? end : to};
 }
 
 // ---- nodes
@@ -423,10 +432,9 @@ inline void openLeaf(CoverJob& job, const NodeConstants& constants, const Entry&
     const int k = lowestBit(left);
     if (isCovered(job.covered[k], begin[k], end[k])) continue;
     for (float from = begin[k]; from < end[k];) {
-      const ArcDirections* arc = arcFrom(job, from, end[k]);
-      const float to = arc->high < end[k] && arc->high > from ? arc->high : end[k];
-      askLeaf(job, leaf, bothSides, static_cast<std::uint32_t>(k), from, to, arc, tasks);
-      from = to;
+      const Arc arc = arcFrom(job, from, end[k]);
+      askLeaf(job, leaf, bothSides, static_cast<std::uint32_t>(k), from, arc.to, arc.directions, tasks);
+      from = arc.to;
     }
   }
   finish(job, tasks);

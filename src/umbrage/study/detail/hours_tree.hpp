@@ -67,7 +67,8 @@ struct CoverJob {
   float sinLatitude, cosLatitude;
   float rise, cosine, sine, error;  ///< of SunLeg::whole
   float first, last;
-  const ArcDirections* arcs;  ///< 64
+  const ArcDirections* arcs;
+  std::int32_t arcCount;
   // the group
   std::int32_t count;
   GroupPoint points[kGroup];
@@ -85,9 +86,10 @@ struct CoverJob {
   void* context;
   /// Makes room in a coverage.
   void (*grow)(Coverage&);
-  /// Solves the edges in `lanes` of a quad in double precision; from[k], to[k]: between which hours the sun is on the inner side
-  /// (wrapped when from > to). Returns false when it never is at one of them.
-  bool (*refine)(void* context, std::uint32_t point, std::uint32_t quad, std::uint32_t lanes, float* from, float* to);
+  /// Solves the edges in `lanes` of a quad in double precision, between hours `first` and `last` of one arc; from[k], to[k]: between
+  /// which hours the sun is on the inner side (a gap when from > to). Returns false when it never is at one of them.
+  bool (*refine)(void* context, std::uint32_t point, std::uint32_t quad, std::uint32_t lanes, std::uint32_t arc,
+                 float first, float last, float* from, float* to);
   /// A point very near the plane of a quad: returns true when it touches the quad, and then has added what that hides.
   bool (*touch)(void* context, std::uint32_t point, std::uint32_t quad, Coverage& covered);
 };

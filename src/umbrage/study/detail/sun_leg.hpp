@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -29,14 +28,16 @@ struct SunArc {
 /// the second west, the third to the south pole. The direction to the sun is (cos h, sin h, height(h)) up to its length; h, its
 /// angle about the axis, only grows.
 struct SunLeg {
-  static constexpr int kArcs = 64;
-  double firstAngle, lastAngle;  ///< h in [-pi, pi]
-  double firstTime, lastTime;    ///< seconds from the start of the course
-  double first, last;            ///< pseudo-angles of the ends
-  SunArc whole;                  ///< for all of the leg,
-  double wholeError;             ///< the height no farther off than this
-  std::array<SunArc, kArcs>
-      arcs;  ///< around the middles of equal parts of [first, last]; off by no more than kArcError
+  static constexpr int kFewestArcs = 64, kMostArcs = 1024;
+  static constexpr double kLongest = 5.0;  ///< radians
+  double firstAngle, lastAngle;            ///< h in [-pi, pi]
+  double firstTime, lastTime;              ///< seconds from the start of the course
+  double first, last;                      ///< pseudo-angles of the ends
+  SunArc whole;                            ///< for all of the leg,
+  double wholeError;                       ///< the height no farther off than this
+  /// Around the middles of equal parts of [first, last], and at least as wide; off by no more than kArcError. Refraction
+  /// near the horizon takes many.
+  std::vector<SunArc> arcs;
 
   /// The largest error of an arc, in radians; the sun takes 0.014 s for it.
   static constexpr double kArcError = 1e-6;
@@ -47,11 +48,11 @@ struct SunLeg {
   std::vector<Knot> knots;  ///< at equal steps of h
   double knotStart, knotStep;
 
-  double middleHeight = 0.0,
-         heightRange = 0.0;  ///< of all heights: the middle, and how far from the least to the greatest
+  double middleHeight = 0.0, heightRange = 0.0,
+         steepest = 0.0;  ///< of all heights: the middle, and how far from the least to the greatest; the largest slope
 
   /// The same at equal steps of pseudo-angles, with slopes by h and by pseudo-angle, for use without trigonometry.
-  static constexpr int kPseudoKnots = 128;  ///< per unit
+  static constexpr int kPseudoKnots = 512;  ///< per unit
   struct PseudoKnot {
     double height, heightPerPseudo, heightSlope, time, timePerPseudo;
   };
@@ -75,10 +76,6 @@ struct SunLeg {
   [[nodiscard]] double heightSlope(double h) const;
   [[nodiscard]] double time(double h) const;
   [[nodiscard]] double timeSlope(double h) const;
-  [[nodiscard]] const SunArc& arcAt(double pseudo) const {
-    const int i = static_cast<int>((pseudo - first) / (last - first) * kArcs);
-    return arcs[static_cast<std::size_t>(i < 0 ? 0 : i >= kArcs ? kArcs - 1 : i)];
-  }
 
  private:
   struct PseudoCell {
@@ -86,6 +83,9 @@ struct SunLeg {
     double t;
   };
   [[nodiscard]] PseudoCell pseudoCell(double pseudo) const {
+    // Beyond the leg the nearer end counts, round the pole where that is shorter.
+    if (pseudo > last && pseudo - last > first + 4.0 - pseudo) pseudo = first;
+    if (pseudo < first && first - pseudo > pseudo + 4.0 - last) pseudo = last;
     const double end = static_cast<double>(pseudoKnots.size() - 1) - 1e-9, at = (pseudo - pseudoStart) * kPseudoKnots;
     const double x = at < 0.0 ? 0.0 : at > end ? end : at;
     const auto i = static_cast<std::size_t>(x);
