@@ -25,10 +25,10 @@ struct Choice {
 
 Choice chooseAutomatically() {
   const Graphics graphics = findGraphics();
-  if (graphics.renderer.empty()) return {"ray_traced", fmt::format("auto: no graphics ({})", graphics.reason), ""};
+  if (graphics.renderer.empty()) return {"hybrid_cpu", fmt::format("auto: no graphics ({})", graphics.reason), ""};
   if (graphics.software)
-    return {"ray_traced",
-            fmt::format("auto: no GPU, and tracing rays is faster than OpenGL on the CPU ({})", graphics.renderer),
+    return {"hybrid_cpu",
+            fmt::format("auto: no GPU, and our own rasteriser is faster than OpenGL on the processor ({})", graphics.renderer),
             graphics.renderer};
   return {"zpass", fmt::format("auto: shadow volumes on the GPU ({})", graphics.renderer), graphics.renderer};
 }

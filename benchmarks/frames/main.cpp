@@ -1,6 +1,6 @@
 // Frames of the staged scenes by everybody who can draw them, in one run: each round every contestant draws one frame, in an order
 // that turns from round to round, so that whatever disturbs the machine disturbs all alike. Times are compared round by round.
-//   umbrage_frames OUT.json [rounds=N] [shot=PART-OF-A-NAME] [fact:NAME=VALUE ..] [peer:NAME=COMMAND ..]
+//   umbrage_frames OUT.json [rounds=N] [shot=PART-OF-A-NAME] [only=CONTESTANT] [fact:NAME=VALUE ..] [peer:NAME=COMMAND ..]
 // Scenes (for peers) and pictures are written beside OUT.json. `fact` goes into the file as it is.
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
@@ -112,6 +112,7 @@ Result<void> run(const Options& options) {
 bool apply(Options& o, const std::string& name, const std::string& value) {
   if (name == "rounds") return o.rounds = std::atoi(value.c_str()), o.rounds > 0;
   if (name == "shot") return o.shot = value, true;
+  if (name == "only") return std::erase_if(o.entries, [&](const Entry& e) { return e.name != value; }), !o.entries.empty();
   if (name.starts_with("fact:")) return o.facts[name.substr(5)] = value, true;
   if (name.starts_with("peer:")) return o.entries.push_back(peerEntry(name.substr(5), value)), true;
   return false;
@@ -132,7 +133,7 @@ int main(int argc, char** argv) {
     good = good && split != std::string::npos && apply(options, text.substr(0, split), text.substr(split + 1));
   }
   if (!good) {
-    std::cerr << "usage: umbrage_frames OUT.json [rounds=N] [shot=..] [fact:NAME=VALUE ..] [peer:NAME=COMMAND ..]\n";
+    std::cerr << "usage: umbrage_frames OUT.json [rounds=N] [shot=..] [only=..] [fact:NAME=VALUE ..] [peer:NAME=COMMAND ..]\n";
     return 2;
   }
   options.out = argv[1];

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "umbrage/math/predicates.hpp"
+#include "umbrage/shadow/averted_faces.hpp"
 
 namespace umbrage::render {
 namespace {
@@ -14,8 +15,6 @@ namespace {
 // Sine of the angle at which the eye sees the plane. Measured over the conformance scenes: from 2^-20 to 2^-11 not a pixel
 // changes; with 2^-8 some lose the precision they need, and with none at all the rounding of the corners is magnified.
 constexpr double kFlatSine = 0x1p-14;
-// Below this sine the eye may be on either side, as far as double arithmetic and the rounding of what is drawn can tell.
-constexpr double kSurely = 0x1p-18;
 
 // The corners of a triangle as seen from the eye.
 struct Seen {
@@ -64,30 +63,6 @@ class Outcodes {
   double wide_, high_;
 };
 
-// The height of the eye over a triangle with sorted corners relative to it, in the sense of lightSide; 0 when in doubt.
-int surelyOnSide(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 normal = glm::cross(b - a, c - a);
-  const double height = glm::dot(normal, a);
-  if (height * height <= kSurely * kSurely * glm::dot(normal, normal) * glm::dot(a, a)) return 0;
-  return height < 0.0 ? +1 : -1;
-}
-
-// Per triangle of the surfaces: 1 when it is an averted face of a convex solid that the eye is outside of.
-std::vector<std::uint8_t> avertedFaces(const shadow::Geometry& geometry, const Vec3& eye) {
-  const shadow::CasterSet& casters = geometry.casters;
-  std::vector<std::uint8_t> averted(geometry.surfaces.triangles.size(), 0), outside(casters.componentCount, 0);
-  std::vector<std::int8_t> side(casters.triangles.size(), 0);
-  for (std::uint32_t t = 0; t < casters.triangles.size(); ++t) {
-    if (casters.outward[t] == 0) continue;
-    const int at = surelyOnSide(casters.corner(t, 0) - eye, casters.corner(t, 1) - eye, casters.corner(t, 2) - eye);
-    side[t] = static_cast<std::int8_t>(at * casters.outward[t]);
-    if (side[t] > 0) outside[casters.componentOf[t]] = 1;
-  }
-  for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
-    averted[casters.surfaceTriangle[t]] = side[t] < 0 && outside[casters.componentOf[t]] != 0 ? 1 : 0;
-  return averted;
-}
-
 }  // namespace
 
 Arrangement arrange(const shadow::Geometry& geometry, const View& view, int width, int height) {
@@ -98,7 +73,7 @@ Arrangement arrange(const shadow::Geometry& geometry, const View& view, int widt
   std::vector<std::uint8_t> code;
   code.reserve(surfaces.positions.size());
   for (const Vec3f& p : surfaces.positions) code.push_back(outcodes.of(Vec3(p) - eye));
-  const std::vector<std::uint8_t> averted = avertedFaces(geometry, eye);
+  const std::vector<std::uint8_t> averted = shadow::avertedFaces(geometry, eye);
   Arrangement out;
   for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t) {
     const mesh::Triangle& corners = surfaces.triangles[t];

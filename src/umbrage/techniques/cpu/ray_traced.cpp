@@ -1,84 +1,12 @@
-#include <algorithm>
-#include <array>
-#include <chrono>
+#include <optional>
 
-#include "umbrage/techniques/cpu/detail/facing_points.hpp"
+#include "umbrage/techniques/cpu/detail/phase_clock.hpp"
 #include "umbrage/techniques/cpu/detail/ray_traced.hpp"
-#include "umbrage/trace/light_rays.hpp"
-#include "umbrage/trace/tiles.hpp"
+#include "umbrage/techniques/cpu/detail/rays.hpp"
 #include "umbrage/trace/visible_surfaces.hpp"
 
 namespace umbrage::techniques::detail {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-/// What the pixels of one light's mask are computed from.
-struct Shadowing {
-  const shadow::SurfaceBuffer& seen;
-  const FacingPoints facing;
-  const trace::LightRays lightRays;
-};
-
-bool isWhole(const trace::Tile& tile, int x, int y) { return x + 4 <= tile.x1 && y + 2 <= tile.y1; }
-
-Seen8 look(const shadow::SurfaceBuffer& seen, const trace::Tile& tile, int x, int y) {
-  Seen8 packet;
-  if (isWhole(tile, x, y)) {
-    for (int row = 0; row < 2; ++row) {
-      std::copy_n(seen.triangle.row(y + row) + x, 4, packet.triangle.data() + 4 * row);
-      std::copy_n(seen.depth.row(y + row) + x, 4, packet.depth.data() + 4 * row);
-    }
-    return packet;
-  }
-  packet.triangle.fill(shadow::kNoTriangle);
-  packet.depth.fill(0.0f);
-  trace::forEachLane(tile, x, y, [&](int lane, int px, int py) {
-    const auto k = static_cast<std::size_t>(lane);
-    packet.triangle[k] = seen.triangle(px, py), packet.depth[k] = seen.depth(px, py);
-  });
-  return packet;
-}
-
-void mark(const trace::Tile& tile, int x, int y, std::uint32_t lanes, image::GreyImage& lit) {
-  std::array<std::uint8_t, 8> bytes;
-  for (std::size_t k = 0; k < 8; ++k) bytes[k] = trace::hasLane(lanes, k) ? 255 : 0;
-  if (isWhole(tile, x, y)) {
-    std::copy_n(bytes.data(), 4, lit.row(y) + x);
-    std::copy_n(bytes.data() + 4, 4, lit.row(y + 1) + x);
-  } else {
-    trace::forEachLane(tile, x, y, [&](int k, int px, int py) { lit(px, py) = bytes[static_cast<std::size_t>(k)]; });
-  }
-}
-
-// Two rows of a tile.
-void shadeRows(const Shadowing& s, const trace::Tile& tile, int y, FacingPoints::Faces& faces, image::GreyImage& lit) {
-  constexpr std::size_t kBatch = trace::LightRays::kBatch;
-  std::array<trace::SurfacePoints8, kBatch> points;
-  std::array<std::uint32_t, kBatch> hidden;
-  std::array<int, kBatch> column;
-  for (int x = tile.x0; x < tile.x1;) {
-    std::size_t count = 0;
-    for (; x < tile.x1 && count < kBatch; x += 4) {
-      column[count] = x;
-      if (s.facing.place(look(s.seen, tile, x, y), x, y, faces, points[count])) ++count;
-    }
-    s.lightRays.hidden({points.data(), count}, {hidden.data(), count});
-    for (std::size_t i = 0; i < count; ++i) mark(tile, column[i], y, points[i].active & ~hidden[i], lit);
-  }
-}
-
-void markCovered(const shadow::SurfaceBuffer& seen, const trace::Tile& tile, image::GreyImage& covered) {
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    const std::uint32_t* triangle = seen.triangle.row(y);
-    std::uint8_t* row = covered.row(y);
-    for (int x = tile.x0; x < tile.x1; ++x) row[x] = triangle[x] != shadow::kNoTriangle ? 1 : 0;
-  }
-}
 
 class RayTraced final : public shadow::Technique {
  public:
@@ -86,50 +14,33 @@ class RayTraced final : public shadow::Technique {
   const shadow::Traits& traits() const override { return traits_; }
 
   Result<void> prepare(std::shared_ptr<const shadow::Geometry> geometry) override {
-    auto built = trace::Occlusion::build({geometry, &geometry->surfaces});
+    auto built = Rays::build(geometry);
     if (!built) return tl::unexpected(built.error());
-    planes_ = planesOf(geometry->surfaces);
-    occlusion_.emplace(std::move(*built));
+    rays_.emplace(std::move(*built));
     return {};
   }
 
   Result<shadow::Shading> shade(const shadow::Frame& frame) override {
-    UMBRAGE_CHECK(occlusion_.has_value(), "shade() before prepare()");
-    const auto start = Clock::now();
-    auto seen = trace::visibleSurfaces(*occlusion_, frame.camera);
-    if (!seen) return tl::unexpected(seen.error());
+    UMBRAGE_CHECK(rays_.has_value(), "shade() before prepare()");
     shadow::Shading out;
+    PhaseClock clock(out.stats.phases);
+    auto seen = trace::visibleSurfaces(rays_->occlusion(), frame.camera);
+    if (!seen) return tl::unexpected(seen.error());
     out.surface = std::move(*seen);
-    out.stats.phases.push_back({"surface", millisecondsSince(start)});
+    clock.end("surface");
     for (const scene::Light& light : frame.lights) {
-      const auto begin = Clock::now();
-      auto mask = maskOf(frame.camera, light, out.surface);
+      auto mask = rays_->mask(frame.camera, light, out.surface);
       if (!mask) return tl::unexpected(mask.error());
       out.masks.push_back(std::move(*mask));
-      out.stats.phases.push_back({"shadow", millisecondsSince(begin)});
-      out.stats.lights.push_back({"ray_traced", "one ray per lit-facing pixel towards the light", 0, 0, 0, 0, 0});
+      out.stats.lights.push_back({.method = "ray_traced", .reason = "one ray per lit-facing pixel towards the light"});
+      clock.end("shadow");
     }
     return out;
   }
 
  private:
-  Result<shadow::LightMask> maskOf(const scene::Camera& camera, const scene::Light& light,
-                                   const shadow::SurfaceBuffer& seen) const {
-    const Shadowing s{seen, FacingPoints(occlusion_->surfaces(), planes_, camera, light),
-                      trace::LightRays(*occlusion_, light)};
-    shadow::LightMask mask{{camera.width, camera.height}, {}, {camera.width, camera.height}};
-    const auto done = trace::forEachTile(camera.width, camera.height, [&](const trace::Tile& tile) {
-      markCovered(seen, tile, mask.covered);
-      FacingPoints::Faces faces;
-      for (int y = tile.y0; y < tile.y1; y += 2) shadeRows(s, tile, y, faces, mask.light);
-    });
-    if (!done) return tl::unexpected(done.error());
-    return mask;
-  }
-
   shadow::Traits traits_;
-  std::optional<trace::Occlusion> occlusion_;
-  std::vector<Plane> planes_;
+  std::optional<Rays> rays_;
 };
 
 }  // namespace

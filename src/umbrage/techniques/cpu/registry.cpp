@@ -1,9 +1,14 @@
 #include "umbrage/techniques/cpu/registry.hpp"
 
+#include "umbrage/techniques/cpu/detail/hybrid_cpu.hpp"
 #include "umbrage/techniques/cpu/detail/ray_traced.hpp"
+#include "umbrage/techniques/cpu/detail/zpass_cpu.hpp"
 
 namespace umbrage::techniques {
 
-std::vector<shadow::TechniqueEntry> cpuTechniques() { return {{detail::rayTracedTraits(), detail::makeRayTraced}}; }
+std::vector<shadow::TechniqueEntry> cpuTechniques() { 
+  return {{detail::rayTracedTraits(), detail::makeRayTraced}, {detail::zpassCpuTraits(), detail::makeZPassCpu},
+          {detail::hybridCpuTraits(), detail::makeHybridCpu}};
+ }
 
 }  // namespace umbrage::techniques

@@ -1,0 +1,198 @@
+#include "umbrage/raster/shadow_count.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "umbrage/raster/sides.hpp"
+
+namespace umbrage::raster {
+namespace {
+
+// Counts the patch where it covers a pixel and is nearer than what is seen there. Leaves alone those pixels where single precision cannot
+// tell, and says whether there are any.
+UMBRAGE_IN_BLOCKS bool countInBlock(const BlockPatch& p, const Span& rows, std::int32_t weight, const float* nearness,
+                                    std::int32_t* counts) {
+  const Float8 lane{0, 1, 2, 3, 4, 5, 6, 7};
+  Float8 f[4];
+  for (int k = 0; k < 4; ++k) f[k] = (p.at[k] + p.dy[k] * static_cast<float>(rows.begin)) + p.dx[k] * lane;
+  Int8 unsure{};
+  for (int row = rows.begin; row < rows.end; ++row) {
+    const Float8 before = f[3] - reinterpret_cast<const Float8&>(nearness[row * kBlock]) * p.distance;
+    Int8 sure = before > p.doubt[3], maybe = before > -p.doubt[3];
+    for (int k = 0; k < 3; ++k) sure &= f[k] > p.doubt[k], maybe &= f[k] > -p.doubt[k];
+    reinterpret_cast<Int8&>(counts[row * kBlock]) += sure & weight;
+    unsure |= maybe ^ sure;
+    for (int k = 0; k < 4; ++k) f[k] += p.dy[k];
+  }
+  std::int32_t any = 0;
+  for (int k = 0; k < kBlock; ++k) any |= unsure[k];
+  return any != 0;
+}
+
+// One of its functions at one pixel, rounded as countInBlock does.
+float valueAt(const BlockPatch& p, const Span& rows, int k, int x, int y) {
+  float value = (p.at[k] + p.dy[k] * static_cast<float>(rows.begin)) + p.dx[k] * static_cast<float>(x);
+  for (int row = rows.begin; row < y; ++row) value += p.dy[k];
+  return value;
+}
+
+// Adds the weight where the patch covers whole blocks, nearer than all they show, of eight beside each other. Bit k: of block k a part may be
+// covered.
+UMBRAGE_IN_BLOCKS std::uint32_t countBlocks(const BlockPatch& p, std::int32_t weight, const float* farthest,
+                                            const float* nearest, std::int32_t* whole) {
+  const Float8 lane{0, 1, 2, 3, 4, 5, 6, 7};
+  Float8 low, high;
+  __builtin_memcpy(&low, farthest, sizeof low), __builtin_memcpy(&high, nearest, sizeof high);
+  const Float8 plane = p.at[3] + (kBlock * p.dx[3]) * lane;
+  Int8 touched = plane + (p.above[3] + p.doubt[3]) >= low * p.distance;
+  Int8 covered = plane + (p.below[3] - p.doubt[3]) > high * (p.distance * (1.0f + 0x1p-20f));
+  for (int k = 0; k < 3; ++k) {
+    const Float8 edge = p.at[k] + (kBlock * p.dx[k]) * lane;
+    touched &= edge + p.above[k] >= -p.doubt[k];
+    covered &= edge + p.below[k] > p.doubt[k];
+  }
+  covered &= touched;
+  Int8 sum;
+  __builtin_memcpy(&sum, whole, sizeof sum);
+  sum += covered & weight;
+  __builtin_memcpy(whole, &sum, sizeof sum);
+  const Int8 part = touched & ~covered;
+  std::uint32_t bits = 0;
+  for (int k = 0; k < kBlock; ++k) bits |= (part[k] != 0 ? 1u : 0u) << k;
+  return bits;
+}
+
+// One thread's work on a band.
+class BandCounting {
+ public:
+  BandCounting(const ShadowCount::Request& request, const Corners& corners, const ReceiverDepths& depths, int band,
+               BlockImage<std::int32_t>& out)
+      : request_(request),
+        corners_(corners),
+        depths_(depths),
+        out_(out),
+        first_(band * kBandBlocks),
+        last_(std::min(first_ + kBandBlocks, out.rows)),
+        whole_(depths.stride() * static_cast<std::size_t>(last_ - first_), 0) {
+    out.fillRows(first_, last_, 0);
+  }
+
+  UMBRAGE_IN_BLOCKS void add(const Patch& patch, std::uint64_t tiles) {
+    const int begin = std::max(first_, patch.y0 / kBlock), end = std::min(last_, (patch.y1 + kBlock - 1) / kBlock);
+    for (int row = begin; row < end; ++row) {
+      const float farthest = depths_.farthestOfRow(row);
+      if (farthest >= ReceiverDepths::kNothing) continue;
+      const Span columns = columnsOf(patch, row, row + 1, double(farthest) * (1.0 - 0x1p-20));
+      for (int column = columns.begin & ~(kTileBlocks - 1); column < columns.end; column += kTileBlocks)
+        if ((tiles >> std::min(63, column / kTileBlocks) & 1u) != 0) addInEight(patch, column, row);
+    }
+  }
+
+  // Adds what was counted for whole blocks.
+  void finish(int atEye) {
+    for (int row = first_; row < last_; ++row)
+      for (int column = 0; column < out_.columns; ++column) {
+        const std::int32_t whole = atEye + whole_[local(column, row)];
+        for (std::int32_t& count : out_.blocks[out_.index(column, row)].pixel) count += whole;
+      }
+  }
+
+ private:
+  [[nodiscard]] std::size_t local(int column, int row) const {
+    return static_cast<std::size_t>(row - first_) * depths_.stride() + static_cast<std::size_t>(column);
+  }
+
+  UMBRAGE_IN_BLOCKS void addInEight(const Patch& patch, int column, int row) {
+    BlockPatch p;
+    overSquares<kBlock>(patch, column, row, p);
+    const Span rows = rowsOf(patch, row);
+    const auto k = static_cast<std::size_t>(column);
+    const float* nearest = depths_.nearest(row) + k;
+    std::uint32_t parts = countBlocks(p, patch.weight, depths_.farthest(row) + k, nearest, &whole_[local(column, row)]);
+    for (int at = 0; parts != 0; parts &= parts - 1) {
+      const int further = std::countr_zero(parts);
+      if (column + further >= out_.columns) return;
+      moveOn(p, further - at);
+      at = further;
+      BlockPatch here = p;
+      here.doubt[3] += 0x1p-20f * p.distance * nearest[further];
+      const std::size_t i = out_.index(column + further, row);
+      if (countInBlock(here, rows, patch.weight, request_.seen.nearness.blocks[i].pixel.data(),
+                       out_.blocks[i].pixel.data()))
+        countUnsure(patch, here, rows, column + further, row);
+    }
+  }
+
+  // The pixels that countInBlock left alone.
+  [[gnu::noinline]] void countUnsure(const Patch& patch, const BlockPatch& p, const Span& rows, int column, int row) {
+    const std::size_t i = out_.index(column, row);
+    for (std::uint64_t left = request_.receivers[i]; left != 0; left &= left - 1) {
+      const int bit = std::countr_zero(left), x = bit % kBlock, y = bit / kBlock;
+      if (y < rows.begin || y >= rows.end) continue;
+      const auto k = static_cast<std::size_t>(bit);
+      const float before = valueAt(p, rows, 3, x, y) - request_.seen.nearness.blocks[i].pixel[k] * p.distance;
+      bool sure = before > p.doubt[3], maybe = before > -p.doubt[3];
+      for (int e = 0; e < 3; ++e) {
+        const float edge = valueAt(p, rows, e, x, y);
+        sure = sure && edge > p.doubt[e], maybe = maybe && edge > -p.doubt[e];
+      }
+      const int px = kBlock * column + x, py = kBlock * row + y;
+      if (maybe && !sure && patch.covers(corners_, px, py) &&
+          isBefore(patch, request_.seen.triangle.blocks[i].pixel[k], px, py))
+        out_.blocks[i].pixel[k] += patch.weight;
+    }
+  }
+
+  // Whether a patch is nearer than the triangle seen at a pixel, in double precision.
+  [[nodiscard]] bool isBefore(const Patch& patch, std::uint32_t triangle, int px, int py) const {
+    const mesh::Triangle& c = request_.triangles[triangle];
+    const Vec3 &a = corners_.mapped[c[0]], pixel(px + 0.5, py + 0.5, 1.0);
+    const Vec3 normal = glm::cross(corners_.mapped[c[1]] - a, corners_.mapped[c[2]] - a);
+    const double nearness = glm::dot(normal, pixel) / glm::dot(normal, a);
+    return patch.at(3, pixel.x, pixel.y) > nearness * patch.distance;
+  }
+
+  const ShadowCount::Request& request_;
+  const Corners& corners_;
+  const ReceiverDepths& depths_;
+  BlockImage<std::int32_t>& out_;
+  int first_, last_;
+  std::vector<std::int32_t> whole_;
+};
+
+UMBRAGE_BLOCKS void addPatch(BandCounting& band, const Patch& patch, std::uint64_t tiles) { band.add(patch, tiles); }
+
+}  // namespace
+
+Result<void> ShadowCount::plan(const Request& request) {
+  const PixelSpace& space = request.space;
+  const shadow::Silhouette& silhouette = request.silhouette;
+  const Corners corners{request.positions.mapped, space.map(silhouette.light)};
+  request_.emplace(request);
+  if (auto done = depths_.find(request.seen.nearness, request.receivers); !done) return done;
+  const SideMaker makeSide(space, corners, casters_, silhouette.light, request.room);
+  const std::size_t sides = silhouette.edges.size();
+  return bands_.fill(
+      sides + request.invisible.size(), space.height,
+      [&](std::size_t i, Patch& patch) {
+        if (i < sides) return makeSide.side(silhouette.edges[i], patch);
+        const std::uint32_t t = request.invisible[i - sides];
+        return makeSide.cap(t, silhouette.side[t], patch);
+      },
+      [&](const Patch& patch, int row) { return depths_.tilesBehind(patch, row); });
+}
+
+Result<void> ShadowCount::count(BlockImage<std::int32_t>& out) {
+  UMBRAGE_CHECK(request_.has_value(), "plan() first");
+  const Request& request = *request_;
+  const Corners corners{request.positions.mapped, request.space.map(request.silhouette.light)};
+  eyeCount_ = countAtEye(casters_, request.silhouette, request.space, corners);
+  out.resize(request.space.width, request.space.height);
+  return forEach(bands_.count(), [&](int band) {
+    BandCounting counting(request, corners, depths_, band, out);
+    bands_.forEachIn(band, [&](const Patch& patch, std::uint64_t tiles) { addPatch(counting, patch, tiles); });
+    counting.finish(eyeCount_);
+  });
+}
+
+}  // namespace umbrage::raster

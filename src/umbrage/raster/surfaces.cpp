@@ -1,0 +1,172 @@
+#include "umbrage/raster/surfaces.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "umbrage/math/predicates.hpp"
+#include "umbrage/shadow/averted_faces.hpp"
+
+namespace umbrage::raster {
+namespace {
+
+// Marks pixels whose edges single precision cannot tell, a bit each; draws all others. False when nothing was drawn.
+UMBRAGE_IN_BLOCKS bool drawBlock(const BlockPatch& t, const Span& rows, std::uint32_t id, float* nearness,
+                                 std::uint32_t* triangle, std::uint64_t& unsure) {
+  const Float8 lane{0, 1, 2, 3, 4, 5, 6, 7};
+  Float8 edge[3];
+  for (int k = 0; k < 3; ++k) edge[k] = (t.at[k] + t.dy[k] * static_cast<float>(rows.begin)) + t.dx[k] * lane;
+  const Float8 near = t.at[3] + t.dx[3] * lane;
+  Int8 drawn{}, asked{}, askedIn[kBlock];
+  for (int row = rows.begin; row < rows.end; ++row) {
+    const Float8 here = near + t.dy[3] * static_cast<float>(row);
+    Float8& stored = reinterpret_cast<Float8&>(nearness[row * kBlock]);
+    Int8& ids = reinterpret_cast<Int8&>(triangle[row * kBlock]);
+    Int8 inside = here > stored, maybe = inside;
+    for (int k = 0; k < 3; ++k) inside &= edge[k] > t.doubt[k], maybe &= edge[k] > -t.doubt[k];
+    stored = inside ? here : stored;
+    ids = inside ? Int8{} + static_cast<std::int32_t>(id) : ids;
+    drawn |= inside;
+    askedIn[row] = maybe ^ inside;
+    asked |= askedIn[row];
+    for (int k = 0; k < 3; ++k) edge[k] += t.dy[k];
+  }
+  std::int32_t any = 0, anyAsked = 0;
+  for (int k = 0; k < kBlock; ++k) any |= drawn[k], anyAsked |= asked[k];
+  if (anyAsked != 0)
+    for (int row = rows.begin; row < rows.end; ++row)
+      for (int k = 0; k < kBlock; ++k) unsure |= std::uint64_t{askedIn[row][k] != 0} << (row * kBlock + k);
+  return any != 0;
+}
+
+UMBRAGE_IN_BLOCKS float farthestOf(const float* nearness) {
+  Float8 least = reinterpret_cast<const Float8&>(nearness[0]);
+  for (int row = 1; row < kBlock; ++row) {
+    const Float8 v = reinterpret_cast<const Float8&>(nearness[row * kBlock]);
+    least = v < least ? v : least;
+  }
+  float result = least[0];
+  for (int k = 1; k < kBlock; ++k) result = std::min(result, least[k]);
+  return result;
+}
+
+// One thread's work on a band.
+struct BandDrawing {
+  const Corners& corners;
+  SeenBlocks& out;
+  int first, last;              // rows of blocks
+  std::vector<float> farthest;  // per block: nearness of the farthest pixel
+
+  BandDrawing(const Corners& c, SeenBlocks& o, int band)
+      : corners(c), out(o), first(band * kBandBlocks), last(std::min(first + kBandBlocks, o.nearness.rows)) {
+    out.nearness.fillRows(first, last, 0.0f);
+    out.triangle.fillRows(first, last, shadow::kNoTriangle);
+    farthest.assign(static_cast<std::size_t>((last - first) * out.nearness.columns), 0.0f);
+  }
+
+  // Those pixels that single precision left undecided. True when one was drawn.
+  bool drawUnsure(const Patch& patch, const BlockPatch& t, std::uint64_t unsure, int column, int row) {
+    const std::size_t block = out.nearness.index(column, row);
+    bool drawn = false;
+    for (; unsure != 0; unsure &= unsure - 1) {
+      const int bit = std::countr_zero(unsure), x = bit % kBlock, y = bit / kBlock;
+      if (!patch.covers(corners, kBlock * column + x, kBlock * row + y)) continue;
+      const float here = t.at[3] + t.dx[3] * static_cast<float>(x) + t.dy[3] * static_cast<float>(y);
+      float& nearness = out.nearness.blocks[block].pixel[static_cast<std::size_t>(bit)];
+      if (!(here > nearness)) continue;
+      nearness = here, drawn = true;
+      out.triangle.blocks[block].pixel[static_cast<std::size_t>(bit)] = patch.id;
+    }
+    return drawn;
+  }
+};
+
+UMBRAGE_BLOCKS void draw(BandDrawing& band, const Patch& patch) {
+  const int begin = std::max(band.first, patch.y0 / kBlock),
+            end = std::min(band.last, (patch.y1 + kBlock - 1) / kBlock);
+  for (int row = begin; row < end; ++row) {
+    const Span columns = columnsOf(patch, row, row + 1, 0.0);
+    if (columns.begin >= columns.end) continue;
+    BlockPatch t;
+    overSquares<kBlock>(patch, columns.begin, row, t);
+    const Span rows = rowsOf(patch, row);
+    for (int column = columns.begin; column < columns.end; ++column, moveOn(t, 1)) {
+      float& farthest =
+          band.farthest[static_cast<std::size_t>((row - band.first) * band.out.nearness.columns + column)];
+      const Float4 most = t.at + t.above + t.doubt;
+      if (most[3] <= farthest || most[0] < 0.0f || most[1] < 0.0f || most[2] < 0.0f) continue;
+      const std::size_t block = band.out.nearness.index(column, row);
+      float* nearness = band.out.nearness.blocks[block].pixel.data();
+      std::uint64_t unsure = 0;
+      bool drawn = drawBlock(t, rows, patch.id, nearness, band.out.triangle.blocks[block].pixel.data(), unsure);
+      if (unsure != 0 && band.drawUnsure(patch, t, unsure, column, row)) drawn = true;
+      if (drawn) farthest = farthestOf(nearness);
+    }
+  }
+}
+
+}  // namespace
+
+bool SurfaceRaster::make(const PixelSpace& space, const SeenPositions& positions, std::uint32_t triangle, Patch& out) {
+  const scene::Surfaces& surfaces = geometry_.surfaces;
+  const mesh::Triangle& corner = surfaces.triangles[triangle];
+  if (averted_[triangle] != 0 ||
+      (positions.outside[corner[0]] & positions.outside[corner[1]] & positions.outside[corner[2]]) != 0)
+    return false;
+  const Corners corners{positions.mapped, {}};
+  const std::array<Vec3, 3> points{positions.mapped[corner[0]], positions.mapped[corner[1]],
+                                   positions.mapped[corner[2]]};
+  bound(space, points, out);
+  if (out.x0 >= out.x1 || out.y0 >= out.y1) return false;
+  out.id = triangle;
+  if (!makePatch(space, corners, {corner[0], corner[1], corner[2]}, false, out)) return false;
+  if (liesInPlane(surfaces.corner(triangle, 0), surfaces.corner(triangle, 1), surfaces.corner(triangle, 2),
+                  space.eye)) {
+    const std::lock_guard lock(edgeOnMutex_);
+    edgeOn_.push_back(triangle);
+    return false;
+  }
+  if (!(out.distance > 0.0)) return false;
+  out.x[3] /= out.distance, out.y[3] /= out.distance, out.c[3] /= out.distance;  // nearness itself
+  out.distance = 1.0;
+  return true;
+}
+
+Result<void> SurfaceRaster::draw(const PixelSpace& space, const SeenPositions& positions, SeenBlocks& out) {
+  const scene::Surfaces& surfaces = geometry_.surfaces;
+  averted_ = shadow::avertedFaces(geometry_, space.eye);
+  out.nearness.resize(space.width, space.height);
+  out.triangle.resize(space.width, space.height);
+  edgeOn_.clear();
+  if (auto done = bands_.fill(
+          surfaces.triangles.size(), space.height,
+          [&](std::size_t i, Patch& patch) { return make(space, positions, static_cast<std::uint32_t>(i), patch); },
+          [](const Patch&, int) { return ~std::uint64_t{0}; });
+      !done)
+    return done;
+  std::sort(edgeOn_.begin(), edgeOn_.end());
+  const Corners corners{positions.mapped, {}};
+  return forEach(bands_.count(), [&](int band) {
+    BandDrawing drawing(corners, out, band);
+    bands_.forEachIn(band, [&](const Patch& patch, std::uint64_t) { raster::draw(drawing, patch); });
+  });
+}
+
+Result<shadow::SurfaceBuffer> surfaceBuffer(const PixelSpace& space, const SeenBlocks& seen) {
+  shadow::SurfaceBuffer out{{space.width, space.height, shadow::kNoTriangle},
+                            {space.width, space.height, std::numeric_limits<float>::infinity()}};
+  const auto scale = static_cast<float>(space.scale);
+  auto done = forEach((space.height + kBand - 1) / kBand, [&](int band) {
+    forEachRowPiece(seen.triangle.columns, space.width, space.height, band,
+                    [&](std::size_t block, std::size_t first, int x, int y, int count) {
+                      const float* nearness = seen.nearness.blocks[block].pixel.data() + first;
+                      std::copy_n(seen.triangle.blocks[block].pixel.data() + first, count, out.triangle.row(y) + x);
+                      float* depth = out.depth.row(y) + x;
+                      for (int k = 0; k < count; ++k) depth[k] = 1.0f / (nearness[k] * scale);
+                    });
+  });
+  if (!done) return tl::unexpected(done.error());
+  return out;
+}
+
+}  // namespace umbrage::raster

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <mutex>
+
+#include "umbrage/raster/bands.hpp"
+#include "umbrage/shadow/technique.hpp"
+
+namespace umbrage::raster {
+
+/// What a camera sees, block by block.
+struct SeenBlocks {
+  BlockImage<float> nearness;          ///< 1 / w of the pixel space; 0 where there is no surface
+  BlockImage<std::uint32_t> triangle;  ///< shadow::kNoTriangle where there is none
+};
+
+/// Draws what cameras see of a scene, on the processor: every triangle in the plane of its three corners, with no clipping and no rounding of
+/// corners to a grid; where a pixel's centre lies on an edge two triangles share, exactly one of them covers it.
+class SurfaceRaster {
+ public:
+  /// REQUIRES: `geometry` outlives this.
+  explicit SurfaceRaster(const shadow::Geometry& geometry) : geometry_(geometry) {}
+
+  /// `positions`: those of the geometry, mapped by `space`.
+  /// 1. Left out are triangles in whose plane the eye lies (liesInPlane): nothing is seen of them. Those of them that cast are `edgeOn`.
+  /// Errors: ErrorCode::device when memory runs out.
+  [[nodiscard]] Result<void> draw(const PixelSpace& space, const SeenPositions& positions, SeenBlocks& out);
+
+  /// Of the last picture: triangles in whose plane the eye lies, ascending.
+  [[nodiscard]] const std::vector<std::uint32_t>& edgeOn() const { return edgeOn_; }
+
+ private:
+  [[nodiscard]] bool make(const PixelSpace& space, const SeenPositions& positions, std::uint32_t triangle, Patch& out);
+  const shadow::Geometry& geometry_;
+  std::vector<std::uint8_t> averted_;
+  std::mutex edgeOnMutex_;
+  std::vector<std::uint32_t> edgeOn_;
+  Bands bands_;
+};
+
+/// As an image, with depths in scene units.
+[[nodiscard]] Result<shadow::SurfaceBuffer> surfaceBuffer(const PixelSpace& space, const SeenBlocks& seen);
+
+}  // namespace umbrage::raster

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "umbrage/raster/shadow_count.hpp"
+#include "umbrage/techniques/cpu/detail/phase_clock.hpp"
+
+namespace umbrage::techniques::detail {
+
+/// Surfaces and masks of a picture, both rasterised on the processor; the masks by counting the sides of shadow volumes.
+class CpuVolumes {
+ public:
+  explicit CpuVolumes(std::shared_ptr<const shadow::Geometry> geometry);
+
+  /// What a camera sees, for the calls that follow.
+  /// Errors: ErrorCode::device when memory runs out.
+  [[nodiscard]] Result<void> see(const scene::Camera& camera);
+  [[nodiscard]] Result<shadow::SurfaceBuffer> surface() const { return raster::surfaceBuffer(space_, seen_); }
+
+  /// The first step of mask(): which pixels face a light, and the silhouette.
+  [[nodiscard]] Result<void> look(const scene::Light& light, shadow::FinderKind finder, PhaseClock& clock);
+  [[nodiscard]] std::size_t receiverCount() const;  ///< pixels that face the light
+  [[nodiscard]] std::size_t silhouetteSize() const { return silhouette_.edges.size(); }
+  /// The second: the sides that may change a pixel; returns how many pieces there are to fill.
+  [[nodiscard]] Result<std::size_t> plan(PhaseClock& clock);
+  /// REQUIRES: see(), look() and plan() for the same camera and light.
+  [[nodiscard]] Result<shadow::LightMask> mask(const scene::Camera& camera, const scene::Light& light,
+                                               PhaseClock& clock);
+  /// Of the light last looked at.
+  [[nodiscard]] shadow::LightStats stats(bool detailed) const;
+
+ private:
+  Result<void> findReceivers(const Vec4& light);
+  [[nodiscard]] double depthOf(std::uint32_t triangle, const Vec3& ray) const;
+  [[nodiscard]] Result<shadow::LightMask> paint(const scene::Camera& camera, const scene::Light& light) const;
+
+  std::shared_ptr<const shadow::Geometry> geometry_;
+  std::vector<std::uint32_t> casterOf_;  ///< per triangle of the surfaces
+  std::unique_ptr<shadow::SilhouetteFinder> finder_;
+  raster::SurfaceRaster surfaces_;
+  raster::ShadowCount count_;
+  raster::PixelSpace space_;
+  raster::SeenPositions positions_;
+  raster::SeenBlocks seen_;
+  shadow::Silhouette silhouette_;
+  std::vector<std::uint64_t> receivers_;  ///< per block
+  std::vector<std::uint32_t> invisible_;  ///< caster triangles in whose plane the eye lies
+  raster::BlockImage<std::int32_t> counts_;
+};
+
+}  // namespace umbrage::techniques::detail
