@@ -3,7 +3,7 @@
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <immintrin.h>
-#include <time.h>
+#include <ctime>
 
 #include <algorithm>
 #include <chrono>
