@@ -14,6 +14,7 @@ namespace umbrage::cli {
 [[nodiscard]] Run addOutline(CLI::App& app);
 [[nodiscard]] Run addEnvelope(CLI::App& app);
 [[nodiscard]] Run addIsochrones(CLI::App& app);
+[[nodiscard]] Run addTerrain(CLI::App& app);
 [[nodiscard]] Run addSample(CLI::App& app);
 
 }  // namespace umbrage::cli

@@ -29,6 +29,7 @@ struct IsochroneOptions {
 // Of the width of the scene, where no tolerance is given.
 constexpr double kShare = 1.0 / 2000.0;
 constexpr double kFinest = 0.1;
+constexpr int kCoarser = 16;
 
 Result<std::vector<double>> parseHours(const std::string& word) {
   std::vector<double> hours;
@@ -111,6 +112,11 @@ Result<Outcome> run(const IsochroneOptions& options, const Console& console) {
   if (wanted.levels.back() > course.upTime())
     console.warn(fmt::format("the sun is up for {:.2f} h only: levels above that are empty", hoursOf(course.upTime())));
   auto found = outline::isochrones(*scene, *hours, course, wanted, console.progress());
+  // A tolerance that nobody asked for gives way to the size of the map.
+  for (int n = 0; n < kCoarser && !found && found.error().code == ErrorCode::usage && !options.tolerance; ++n) {
+    wanted.tolerance *= 2.0;
+    found = outline::isochrones(*scene, *hours, course, wanted, console.progress());
+  }
   if (!found) return tl::unexpected(found.error());
   if (found->cutOff) console.warn("borders go on beyond the map, which ends at 40 heights of the scene");
   const double tolerance = wanted.tolerance * scene->metresPerUnit;

@@ -32,6 +32,7 @@ constexpr Command kCommands[] = {
     {"outline", "Shadows on a horizontal plane as exact outlines (GeoJSON, DXF, SVG)", addOutline},
     {"envelope", "The ground that is in shadow at some moment of a period, as exact outlines", addEnvelope},
     {"isochrones", "Where a plane has at least so many hours of sun or shadow, as outlines", addIsochrones},
+    {"terrain", "Hours of sun on a height raster of any size, tile by tile", addTerrain},
     {"sample", "Writes one of the scenes that come with the program", addSample},
 };
 

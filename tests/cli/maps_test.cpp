@@ -183,6 +183,22 @@ TEST_F(Maps, Isochrones) {
   EXPECT_THAT(night.err, HasSubstr("below the horizon"));
 }
 
+TEST_F(Maps, TerrainInTiles) {
+  std::string raster = "ncols 40\nnrows 30\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+  for (int row = 0; row < 30; ++row)
+    for (int column = 0; column < 40; ++column)
+      raster += std::string(column == 20 && row > 5 && row < 25 ? "12" : "0") + (column == 39 ? "\n" : " ");
+  const auto wall = write("wall.asc", raster);
+  const Ran ran = run({"terrain", wall, "--tile", "16", "--every", "2", "-o", file("out.asc")}, kVienna);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("20 x 15 values, 6 tiles"));
+  EXPECT_THAT(read("out.asc"), StartsWith("ncols 20\nnrows 15\nxllcorner -0.5\nyllcorner 0.5\ncellsize 2\n"));
+  EXPECT_THAT(read("out.asc.txt"), AllOf(HasSubstr("SHA-256"), HasSubstr("at least 5 degrees high")));
+  EXPECT_EQ(run({"terrain", writeBox(), "-o", file("x.asc")}, kVienna).code, 3);
+  EXPECT_EQ(run({"terrain", wall, "--every", "1.5", "-o", file("x.asc")}, kVienna).code, 2);
+  EXPECT_EQ(run({"terrain", wall, "--from", "00:00", "--to", "02:00", "-o", file("x.asc")}, kVienna).code, 2);
+}
+
 TEST_F(Maps, AFarPlaceIsWorthAWarning) {
   const Ran ran = run({"outline", writeSquare(), "--at", "12:00", "-o", file("out.svg")},
                       {"--lat", "35", "--lon", "139", "--date", "2026-09-18", "--tz", "solar"});

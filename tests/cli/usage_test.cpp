@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(CliTest, HelpAndVersionAreNoErrors) {
   const Ran help = umbrage({"--help"});
   EXPECT_EQ(help.code, 0);
-  for (const auto* command : {"info", "techniques", "sun", "render", "compare", "profile", "outline", "envelope", "isochrones", "sample"})
+  for (const auto* command : {"info", "techniques", "sun", "render", "compare", "profile", "outline", "envelope", "isochrones", "terrain", "sample"})
     EXPECT_THAT(help.out, HasSubstr(command));
   // What later versions bring is not pretended.
   for (const auto* command : {"verify", "verify", "gallery"}) EXPECT_THAT(help.out, Not(HasSubstr(command)));

@@ -33,6 +33,7 @@ const std::vector<ForeignRule>& foreignRules() {
       {"proj.h", {"geo"}},
       {"gdal", {"io"}},
       {"cpl_", {"io"}},
+      {"ogr_", {"io"}},
       {"polyclipping/", {"outline"}},
       {"nlohmann/", {"io", "report", "apps", "tests", "benchmarks"}},
       {"cairo/", {"report"}},

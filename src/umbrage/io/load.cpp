@@ -50,7 +50,10 @@ std::string listOfExtensions() {
 }
 
 detail::Hints hintsOf(const LoadOptions& options) {
-  return {options.lod, options.crs, options.heightProperty, options.defaultHeight, options.floorHeight};
+  detail::Hints hints{options.lod, options.crs, options.heightProperty, options.defaultHeight, options.floorHeight};
+  if (const auto& t = options.tile) hints.tile = {t->column, t->row, t->columns, t->rows, t->leastSlope, t->highest};
+  hints.inspectOnly = options.inspectOnly;
+  return hints;
 }
 
 void makePrintable(scene::Scene& scene) {
@@ -74,11 +77,13 @@ Error about(const std::filesystem::path& path, Error error) {
 Result<scene::Scene> loadScene(const std::filesystem::path& path, const LoadOptions& options) {
   if (auto fine = checkOptions(options); !fine) return tl::unexpected(about(path, fine.error()));
   if (auto fine = checkFile(path); !fine) return tl::unexpected(fine.error());
-  if (!detail::formatOf(path))
+  const auto format = detail::formatOf(path);
+  if (!format)
     return fail(ErrorCode::unsupported,
                 "is of a format that is not known by its extension; readable are " + listOfExtensions(), path.string());
   const auto readerTime = std::chrono::duration_cast<std::chrono::milliseconds>(options.timeLimit * kReadersShare);
-  const auto bytes = detail::runReader({std::filesystem::absolute(path), hintsOf(options), readerTime, options.memoryLimit});
+  const auto bytes = detail::runReader({std::filesystem::absolute(path), hintsOf(options), readerTime, options.memoryLimit,
+                                        *format == detail::Format::raster ? detail::kRasterReader : detail::kReader});
   if (!bytes) return tl::unexpected(about(path, bytes.error()));
   auto scene = detail::unpack(*bytes);
   if (!scene) return tl::unexpected(about(path, scene.error()));

@@ -14,6 +14,14 @@
 
 namespace umbrage::io {
 
+/// A rectangle of a height raster together with all cells around it that can hide the sun from it while the sun is high enough:
+/// those that rise above the rectangle's lowest height by `leastSlope` times their distance or more.
+struct RasterTile {
+  int column = 0, row = 0, columns = 0, rows = 0;
+  double leastSlope = 0.0;  ///< tangent of the sun's least elevation; 0: the whole raster
+  double highest = 0.0;     ///< RasterInfo::highest
+};
+
 /// What the caller knows better than the file, and what reading may cost.
 struct LoadOptions {
   std::optional<scene::UpAxis> up;            ///< instead of the format's own
@@ -24,6 +32,8 @@ struct LoadOptions {
   std::optional<std::string> heightProperty;  ///< GeoJSON: this property alone is the height
   std::optional<double> defaultHeight;        ///< GeoJSON: metres, for footprints without height and floors; positive
   double floorHeight = 3.0;                   ///< GeoJSON: metres from floor to floor; positive
+  std::optional<RasterTile> tile;             ///< height rasters: only this
+  bool inspectOnly = false;                   ///< for inspectRaster
   std::chrono::milliseconds timeLimit{9000};  ///< wall clock for the whole call
   std::size_t memoryLimit = std::size_t{1800} << 20;  ///< bytes of address space for the parsers
 };
@@ -33,7 +43,8 @@ inline constexpr std::size_t kMaxTriangles = 20'000'000;
 inline constexpr std::size_t kMaxInstances = 1'000'000;
 
 /// Reads a scene file: glTF 2.0 (.gltf .glb), Wavefront .obj, .ply, .stl, .off, .3ds, .ifc, .x3d, Open Inventor .iv, VRML .wrl,
-/// CityJSON (.json), CityJSONSeq (.jsonl), and footprints with heights in GeoJSON (.geojson .json). Coordinates and units stay
+/// CityJSON (.json), CityJSONSeq (.jsonl), footprints with heights in GeoJSON (.geojson .json) and height
+/// rasters (.tif .tiff .asc: a corner at the middle of each cell, holes where there is no height). Coordinates and units stay
 /// the file's own, except degrees, which are projected to metres (Scene::crs says how).
 ///
 /// 1. The file is parsed in a process of its own, `umbrage-reader`, with limits on time, memory and size: whatever the file
@@ -44,7 +55,7 @@ inline constexpr std::size_t kMaxInstances = 1'000'000;
 /// 4. Colours are taken as sRGB and made linear, except those of glTF, which are linear.
 /// 5. Names and warnings are UTF-8 without control characters; what is not UTF-8 in a file is taken as Latin-1.
 /// 6. May be called from several threads at once.
-/// The reader is looked for at $UMBRAGE_READER, then beside the running program and in the libexec folder of its installation,
+/// Rasters are read by `umbrage-raster-reader` ($UMBRAGE_RASTER_READER). The reader is looked for at $UMBRAGE_READER, then beside the running program and in the libexec folder of its installation,
 /// then where this library was installed or built.
 /// Errors: input (missing, broken, hostile, too large, too slow), unsupported (unknown format or feature), usage (options).
 /// CAVEAT: .obj .ply .stl .off .3ds .ifc .x3d .iv .wrl are read in single precision by the libraries behind them.

@@ -19,7 +19,7 @@ using detail::Knot;
 using detail::Quadtree;
 using std::chrono::milliseconds;
 
-constexpr double kMostCells = 4e6;  // of the coarsest
+constexpr double kMostCells = 1e6;  // of the coarsest
 constexpr double kFarthest = 40.0;  // beyond the casters, in their heights: the sun at 1.4 degrees
 constexpr milliseconds kLook{60'000};
 constexpr int kRounds = 8;             // of checking and refining

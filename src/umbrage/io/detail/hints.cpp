@@ -1,5 +1,6 @@
 #include "umbrage/io/detail/hints.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <string_view>
@@ -19,6 +20,19 @@ std::optional<double> numberIn(std::string_view text) {
   return read.ec == std::errc() && read.ptr == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
+std::optional<TileHint> tileIn(std::string_view text) {
+  std::array<double, 6> numbers{};
+  for (double& number : numbers) {
+    const auto comma = std::min(text.find(','), text.size());
+    const auto value = numberIn(text.substr(0, comma));
+    if (!value) return std::nullopt;
+    number = *value;
+    text.remove_prefix(std::min(comma + 1, text.size()));
+  }
+  const auto whole = [&](std::size_t i) { return static_cast<int>(std::clamp(numbers[i], -2e9, 2e9)); };
+  return TileHint{whole(0), whole(1), whole(2), whole(3), numbers[4], numbers[5]};
+}
+
 }  // namespace
 
 std::vector<std::string> wordsOf(const Hints& hints) {
@@ -28,6 +42,11 @@ std::vector<std::string> wordsOf(const Hints& hints) {
   if (hints.heightProperty) words.push_back("height-property=" + *hints.heightProperty);
   if (hints.defaultHeight) words.push_back("default-height=" + numberText(*hints.defaultHeight));
   words.push_back("floor-height=" + numberText(hints.floorHeight));
+  if (hints.tile)
+    words.push_back("tile=" + std::to_string(hints.tile->column) + "," + std::to_string(hints.tile->row) + "," +
+                    std::to_string(hints.tile->columns) + "," + std::to_string(hints.tile->rows) + "," +
+                    numberText(hints.tile->slope) + "," + numberText(hints.tile->highest));
+  if (hints.inspectOnly) words.push_back("inspect=");
   return words;
 }
 
@@ -41,6 +60,8 @@ Hints hintsOf(std::span<const std::string> words) {
     if (key == "crs") hints.crs = value;
     if (key == "height-property") hints.heightProperty = value;
     if (key == "default-height") hints.defaultHeight = numberIn(value);
+    if (key == "tile") hints.tile = tileIn(value);
+    if (key == "inspect") hints.inspectOnly = true;
     if (key == "floor-height") hints.floorHeight = numberIn(value).value_or(hints.floorHeight);
   }
   return hints;

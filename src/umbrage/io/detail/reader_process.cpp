@@ -52,14 +52,14 @@ Descriptor aboveStandard(int fd) {
 
 std::string systemReason(int code) { return std::generic_category().message(code); }
 
-std::optional<fs::path> findReader() {
-  if (const char* named = std::getenv("UMBRAGE_READER"); named != nullptr && *named != '\0') return fs::path(named);
+std::optional<fs::path> findReader(const ReaderProgram& reader) {
+  if (const char* named = std::getenv(reader.variable); named != nullptr && *named != '\0') return fs::path(named);
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (const fs::path& candidate :
-       {program / "umbrage-reader", program / UMBRAGE_READER_FROM_PROGRAM / "umbrage-reader",
-        fs::path(UMBRAGE_READER_INSTALLED), fs::path(UMBRAGE_READER_BUILT)})
-    if (candidate.is_absolute() && ::access(candidate.c_str(), X_OK) == 0) return candidate;
+  for (const fs::path& folder :
+       {program, program / UMBRAGE_READER_FROM_PROGRAM, fs::path(UMBRAGE_READERS_INSTALLED), fs::path(UMBRAGE_READERS_BUILT)})
+    if (const fs::path candidate = folder / reader.name; candidate.is_absolute() && ::access(candidate.c_str(), X_OK) == 0)
+      return candidate;
   return std::nullopt;
 }
 
@@ -219,10 +219,11 @@ Result<std::vector<std::byte>> readHandover(int fd, std::size_t limit) {
 }  // namespace
 
 Result<std::vector<std::byte>> runReader(const ReaderJob& job) {
-  const auto reader = findReader();
+  const auto reader = findReader(job.program);
   if (!reader)
     return fail(ErrorCode::unsupported,
-                "the program umbrage-reader is not installed beside this one; set UMBRAGE_READER to where it is");
+                std::string("the program ") + job.program.name + " is not installed beside this one; set " +
+                    job.program.variable + " to where it is");
   const Descriptor handover = aboveStandard(::memfd_create("umbrage-handover", MFD_CLOEXEC));
   std::array<int, 2> ends{-1, -1};
   if (handover.get() < 0 || ::pipe2(ends.data(), O_CLOEXEC) != 0)

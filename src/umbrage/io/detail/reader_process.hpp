@@ -11,12 +11,21 @@
 
 namespace umbrage::io::detail {
 
+/// One of the programs that read; `variable` of the environment may say where it is.
+struct ReaderProgram {
+  const char* name;
+  const char* variable;
+};
+inline constexpr ReaderProgram kReader{"umbrage-reader", "UMBRAGE_READER"};
+inline constexpr ReaderProgram kRasterReader{"umbrage-raster-reader", "UMBRAGE_RASTER_READER"};
+
 /// What the reader process is asked for.
 struct ReaderJob {
   std::filesystem::path file;
   Hints hints;
   std::chrono::milliseconds timeLimit{0};
   std::size_t memoryLimit = 0;
+  ReaderProgram program = kReader;
 };
 
 /// The hand-over of one run of the reader. Errors: no reader found or startable; it crashed, hung or ran out of memory.

@@ -14,6 +14,7 @@ Result<scene::Scene> readAs(const Request& request, detail::Format format) {
     case detail::Format::cityJson: return readCityJson(request);
     case detail::Format::cityJsonSeq: return readCityJsonSeq(request);
     case detail::Format::geoJson: return readGeoJson(request);
+    case detail::Format::raster: return fail(ErrorCode::unsupported, "is read by umbrage-raster-reader");
     default: return readWithAssimp(request, format);
   }
 }

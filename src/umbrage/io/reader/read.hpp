@@ -25,5 +25,7 @@ struct Request {
 [[nodiscard]] Result<scene::Scene> readCityJson(const Request& request);
 [[nodiscard]] Result<scene::Scene> readCityJsonSeq(const Request& request);
 [[nodiscard]] Result<scene::Scene> readGeoJson(const Request& request);
+/// Of umbrage-raster-reader; tidied.
+[[nodiscard]] Result<scene::Scene> readRaster(const Request& request);
 
 }  // namespace umbrage::io::reader
