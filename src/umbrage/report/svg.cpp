@@ -222,7 +222,7 @@ class Svg {
     y_ += 14;
     rule();
     for (const MapLayer& layer : map_.layers) {
-      add("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"22\" height=\"12\" rx=\"2\" fill=\"{}\" fill-opacity=\"0.75\" "
+      add("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"22\" height=\"12\" rx=\"2\" fill=\"{}\" fill-opacity=\"{:.2f}\" "
           "stroke=\"{}\"/>\n",
           left(), y_ - 10, hex(layer.colour), layer.opacity > 0.0 ? layer.opacity : 0.75, hex(darker(layer.colour)));
       text(layer.name, 12, "#21252d", false, 32);
