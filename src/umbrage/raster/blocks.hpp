@@ -13,7 +13,7 @@
 /// Before a function that works on many lanes: GCC compiles it twice, with all that it calls of UMBRAGE_IN_BLOCKS, and the program takes the
 /// version for wider vectors where the processor has them. Nothing is contracted, so both give the same bits. (Sanitizers are not up yet when such
 /// functions are chosen.)
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+#if !defined(UMBRAGE_PLAIN_BLOCKS) && defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define UMBRAGE_BLOCKS [[gnu::noinline, gnu::target_clones("avx2", "default")]]
 #else
@@ -26,6 +26,26 @@ namespace umbrage::raster {
 /// A row of a block.
 using Float8 = float __attribute__((vector_size(32), may_alias));
 using Int8 = std::int32_t __attribute__((vector_size(32), may_alias));
+
+/// The lanes as an array: under GCC 12's -fsanitize=bounds subscripts of vectors come out wrong.
+template <class T, class Vector>
+UMBRAGE_IN_BLOCKS std::array<T, sizeof(Vector) / sizeof(T)> lanesOf(const Vector& v) {
+  std::array<T, sizeof(Vector) / sizeof(T)> lanes;
+  __builtin_memcpy(&lanes, &v, sizeof lanes);
+  return lanes;
+}
+/// Bit k: lane k is not 0.
+UMBRAGE_IN_BLOCKS std::uint32_t bitsOf(const Int8& v) {
+  std::uint32_t bits = 0;
+  const auto lanes = lanesOf<std::int32_t>(v);
+  for (std::size_t k = 0; k < lanes.size(); ++k) bits |= (lanes[k] != 0 ? 1u : 0u) << k;
+  return bits;
+}
+UMBRAGE_IN_BLOCKS bool anyOf(const Int8& v) {
+  std::int32_t any = 0;
+  for (const std::int32_t lane : lanesOf<std::int32_t>(v)) any |= lane;
+  return any != 0;
+}
 
 inline constexpr int kBlock = 8;       ///< pixels a side
 inline constexpr int kBandBlocks = 2;  ///< rows of blocks in a band, which one thread works on
@@ -104,14 +124,14 @@ UMBRAGE_IN_BLOCKS Span columnsOf(const Patch& patch, int begin, int end, double 
   if (extent.end - extent.begin <= 1) return extent;
   const double y0 = kBlock * begin + 0.5, y1 = kBlock * end - 0.5;
   const Double4 first = patch.y * y0, last = patch.y * y1;
-  Double4 most = patch.c + patch.slack + (first > last ? first : last);
-  most[3] -= farthest * patch.distance;
-  const Double4 border = -most / patch.x;
+  const Double4 behind{0.0, 0.0, 0.0, farthest * patch.distance};
+  const Double4 highest = patch.c + patch.slack + (first > last ? first : last) - behind;
+  const auto most = lanesOf<double>(highest), border = lanesOf<double>(-highest / patch.x), slope = lanesOf<double>(patch.x);
   double low = patch.x0, high = patch.x1;
-  for (int k = 0; k < 4; ++k) {
-    if (patch.x[k] > 0.0)
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (slope[k] > 0.0)
       low = std::max(low, border[k]);
-    else if (patch.x[k] < 0.0)
+    else if (slope[k] < 0.0)
       high = std::min(high, border[k]);
     else if (most[k] <= 0.0)
       return {0, 0};

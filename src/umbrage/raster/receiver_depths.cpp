@@ -20,8 +20,8 @@ UMBRAGE_BLOCKS Depths depthsOf(const float* nearness, std::uint64_t receivers) {
       const Float8 v = reinterpret_cast<const Float8&>(nearness[row * kBlock]);
       low = v < low ? v : low, high = v > high ? v : high;
     }
-    for (int k = 0; k < kBlock; ++k)
-      d.farthest = std::min(d.farthest, low[k]), d.nearest = std::max(d.nearest, high[k]);
+    for (const float v : lanesOf<float>(low)) d.farthest = std::min(d.farthest, v);
+    for (const float v : lanesOf<float>(high)) d.nearest = std::max(d.nearest, v);
     return d;
   }
   for (; receivers != 0; receivers &= receivers - 1) {
@@ -85,8 +85,8 @@ UMBRAGE_BLOCKS std::uint64_t ReceiverDepths::tilesBehind(const Patch& patch, int
     __builtin_memcpy(&low, &ofTile_[start(row) + static_cast<std::size_t>(tile)], sizeof low);
     Int8 touched = (p.at[3] + (kTile * p.dx[3]) * lane) + (p.above[3] + p.doubt[3]) >= low * p.distance;
     for (int k = 0; k < 3; ++k) touched &= (p.at[k] + (kTile * p.dx[k]) * lane) + p.above[k] >= -p.doubt[k];
-    for (int k = 0; k < std::min(8, end - tile); ++k)
-      if (touched[k] != 0) tiles |= std::uint64_t{1} << std::min(63, tile + k);
+    std::uint32_t bits = bitsOf(touched) & (0xffu >> std::max(0, 8 - (end - tile)));
+    for (; bits != 0; bits &= bits - 1) tiles |= std::uint64_t{1} << std::min(63, tile + std::countr_zero(bits));
   }
   return tiles;
 }

@@ -24,9 +24,7 @@ UMBRAGE_IN_BLOCKS bool countInBlock(const BlockPatch& p, const Span& rows, std::
     unsure |= maybe ^ sure;
     for (int k = 0; k < 4; ++k) f[k] += p.dy[k];
   }
-  std::int32_t any = 0;
-  for (int k = 0; k < kBlock; ++k) any |= unsure[k];
-  return any != 0;
+  return anyOf(unsure);
 }
 
 // One of its functions at one pixel, rounded as countInBlock does.
@@ -56,10 +54,7 @@ UMBRAGE_IN_BLOCKS std::uint32_t countBlocks(const BlockPatch& p, std::int32_t we
   __builtin_memcpy(&sum, whole, sizeof sum);
   sum += covered & weight;
   __builtin_memcpy(whole, &sum, sizeof sum);
-  const Int8 part = touched & ~covered;
-  std::uint32_t bits = 0;
-  for (int k = 0; k < kBlock; ++k) bits |= (part[k] != 0 ? 1u : 0u) << k;
-  return bits;
+  return bitsOf(touched & ~covered);
 }
 
 // One thread's work on a band.

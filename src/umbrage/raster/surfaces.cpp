@@ -31,12 +31,10 @@ UMBRAGE_IN_BLOCKS bool drawBlock(const BlockPatch& t, const Span& rows, std::uin
     asked |= askedIn[row];
     for (int k = 0; k < 3; ++k) edge[k] += t.dy[k];
   }
-  std::int32_t any = 0, anyAsked = 0;
-  for (int k = 0; k < kBlock; ++k) any |= drawn[k], anyAsked |= asked[k];
-  if (anyAsked != 0)
+  if (anyOf(asked))
     for (int row = rows.begin; row < rows.end; ++row)
-      for (int k = 0; k < kBlock; ++k) unsure |= std::uint64_t{askedIn[row][k] != 0} << (row * kBlock + k);
-  return any != 0;
+      unsure |= std::uint64_t{bitsOf(askedIn[row])} << (row * kBlock);
+  return anyOf(drawn);
 }
 
 UMBRAGE_IN_BLOCKS float farthestOf(const float* nearness) {
@@ -45,9 +43,8 @@ UMBRAGE_IN_BLOCKS float farthestOf(const float* nearness) {
     const Float8 v = reinterpret_cast<const Float8&>(nearness[row * kBlock]);
     least = v < least ? v : least;
   }
-  float result = least[0];
-  for (int k = 1; k < kBlock; ++k) result = std::min(result, least[k]);
-  return result;
+  const auto lanes = lanesOf<float>(least);
+  return *std::min_element(lanes.begin(), lanes.end());
 }
 
 // One thread's work on a band.
@@ -93,7 +90,7 @@ UMBRAGE_BLOCKS void draw(BandDrawing& band, const Patch& patch) {
     for (int column = columns.begin; column < columns.end; ++column, moveOn(t, 1)) {
       float& farthest =
           band.farthest[static_cast<std::size_t>((row - band.first) * band.out.nearness.columns + column)];
-      const Float4 most = t.at + t.above + t.doubt;
+      const auto most = lanesOf<float>(t.at + t.above + t.doubt);
       if (most[3] <= farthest || most[0] < 0.0f || most[1] < 0.0f || most[2] < 0.0f) continue;
       const std::size_t block = band.out.nearness.index(column, row);
       float* nearness = band.out.nearness.blocks[block].pixel.data();
