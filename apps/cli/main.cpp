@@ -31,6 +31,7 @@ constexpr Command kCommands[] = {
     {"profile", "The shadows of a day: every step over the scene, and the time in shadow", addProfile},
     {"outline", "Shadows on a horizontal plane as exact outlines (GeoJSON, DXF, SVG)", addOutline},
     {"envelope", "The ground that is in shadow at some moment of a period, as exact outlines", addEnvelope},
+    {"hours", "Exact hours of sun at points, on a grid or on faces, as table, heat map, GeoTIFF or model", addHours},
     {"isochrones", "Where a plane has at least so many hours of sun or shadow, as outlines", addIsochrones},
     {"terrain", "Hours of sun on a height raster of any size, tile by tile", addTerrain},
     {"sample", "Writes one of the scenes that come with the program", addSample},

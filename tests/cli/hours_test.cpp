@@ -1,0 +1,127 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+#include "program.hpp"
+
+// Sun hours: tables, pictures, models, and what is wrong with requests.
+namespace umbrage::cli_test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+class Hours : public CliTest {
+ protected:
+  Ran run(const std::vector<std::string>& more, const std::string& date = "2026-09-18") const {
+    std::vector<std::string> words{"hours", box_,     "--lat", "48.2", "--lon",
+                                   "16.37", "--date", date,    "--tz", "Europe/Vienna"};
+    words.insert(words.end(), more.begin(), more.end());
+    return umbrage(words);
+  }
+  void SetUp() override {
+    CliTest::SetUp();
+    box_ = writeBox();
+  }
+  std::vector<std::string> lines(const std::string& name) const {
+    std::vector<std::string> all;
+    std::istringstream in(read(name));
+    for (std::string line; std::getline(in, line);) all.push_back(line);
+    return all;
+  }
+  std::string box_;
+};
+
+TEST_F(Hours, PointsFromAFile) {
+  // Above the box; on its wall to the north, where the sun of September never comes; before it, far enough to the south; beneath the ground.
+  const std::string points = write("p.csv", "x,y,z,nx,ny,nz\n0,0,3,0,0,1\n0,1,1,0,1,0\r\n 0, -50 ,0,0,0,1\n");
+  const Ran ran = run({"--points", points, "-o", file("h.csv")});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto rows = lines("h.csv");
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0], "hours,longest,intervals");
+  EXPECT_THAT(rows[1], StartsWith("12.2600,12.2600,06:40:26-18:56:"));
+  EXPECT_EQ(rows[2], "0.0000,0.0000,");
+  EXPECT_EQ(rows[3], rows[1]);
+  EXPECT_THAT(read("h.csv.ledger.txt"), HasSubstr("Europe/Vienna, UTC+02:00 (CEST)"));
+  EXPECT_THAT(read("h.csv.ledger.txt"), HasSubstr("declination moving"));
+}
+
+TEST_F(Hours, GridsInEveryKind) {
+  for (const char* name : {"g.csv", "g.png", "g.glb", "g.tif"}) {
+    const Ran ran = run({"--grid", "0.5", "--plane", "0.5", "-o", file(name)});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_GT(read(name).size(), 200u) << name;
+  }
+  EXPECT_THAT(read("g.png"), StartsWith("\x89PNG"));
+  EXPECT_THAT(read("g.glb"), StartsWith("glTF"));
+  EXPECT_THAT(read("g.tif"), StartsWith("II*"));
+  EXPECT_EQ(lines("g.csv")[0], "x,y,z,nx,ny,nz,hours,longest,intervals");
+  EXPECT_EQ(run({"--grid", "0.5", "--faces", "*", "-o", file("f.glb")}).code, 0);
+  EXPECT_EQ(run({"--grid", "0.5", "--on", "*", "-o", file("o.csv")}).code, 0);
+  // On the roof of the box nothing hides the sun.
+  EXPECT_THAT(lines("o.csv")[1], HasSubstr(",2,0,0,1,12.2600,12.2600,"));
+}
+
+TEST_F(Hours, SeveralDaysRunsAndSamples) {
+  const std::string points = write("p.csv", "x,y,z,nx,ny,nz\n0,0,3,0,0,1\n");
+  ASSERT_EQ(run({"--points", points, "-o", file("d.csv"), "--until", "2026-09-20", "--from", "09:00", "--to", "17:00",
+                 "--at-least", "60"})
+                .code,
+            0);
+  EXPECT_EQ(lines("d.csv")[0].substr(0, 60), "hours,longest,intervals,runs,run_hours,month_01,month_02,mont");
+  EXPECT_THAT(lines("d.csv")[1],
+              StartsWith("24.0000,8.0000,2026-09-18 09:00:00-17:00:00;2026-09-19 09:00:00-17:00:00;"));
+  EXPECT_THAT(lines("d.csv")[1], HasSubstr(",3,24.0000,"));
+  ASSERT_EQ(run({"--points", points, "-o", file("s.csv"), "--sampled", "15"}).code, 0);
+  EXPECT_THAT(lines("s.csv")[1], StartsWith("12.2500,"));
+  EXPECT_THAT(read("s.csv.ledger.txt"), HasSubstr("sampled every 15 min"));
+}
+
+TEST_F(Hours, RefractionAndTheUpperLimbLengthenTheDay) {
+  const std::string points = write("p.csv", "x,y,z,nx,ny,nz\n0,0,3,0,0,1\n");
+  ASSERT_EQ(run({"--points", points, "-o", file("r.csv"), "--refraction", "--sun", "upper"}).code, 0);
+  EXPECT_GT(std::stod(lines("r.csv")[1]), 12.38);
+  EXPECT_THAT(read("r.csv.ledger.txt"), HasSubstr("upper limb of the disc, with refraction"));
+}
+
+TEST_F(Hours, WhatIsWrongIsSaidAndNothingWritten) {
+  const auto files0 = files();
+  const std::string bad = write("bad.csv", "x,y,z,nx,ny,nz\n0,0,3,0,0,1\n1,2,three,0,0,1\n");
+  const Ran number = run({"--points", bad, "-o", file("h.csv")});
+  EXPECT_EQ(number.code, 3);
+  EXPECT_THAT(number.err, HasSubstr("bad.csv, line 3: 'three' is no number"));
+  EXPECT_THAT(run({"--points", write("few.csv", "x,y,z\n1,2,3\n"), "-o", file("h.csv")}).err,
+              HasSubstr("few.csv, line 1"));
+  EXPECT_EQ(run({"--points", write("none.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,0\n"), "-o", file("h.csv")}).code, 3);
+  EXPECT_EQ(run({"-o", file("h.csv")}).code, 2);
+  EXPECT_EQ(run({"--grid", "1", "-o", file("h.xls")}).code, 2);
+  EXPECT_EQ(run({"--grid", "1", "--faces", "*", "-o", file("h.png")}).code, 2);
+  EXPECT_EQ(run({"--grid", "1", "--faces", "nobody", "-o", file("h.csv")}).code, 2);
+  EXPECT_EQ(run({"--grid", "0.00001", "-o", file("h.csv")}).code, 2);
+  EXPECT_EQ(run({"--grid", "1", "-o", file("h.csv"), "--until", "2026-09-01"}).code, 2);
+  EXPECT_FALSE(exists("h.csv"));
+  EXPECT_FALSE(exists("h.png"));
+}
+
+TEST_F(Hours, PolarNightAndDay) {
+  const std::string points = write("p.csv", "x,y,z,nx,ny,nz\n0,0,3,0,0,1\n");
+  const auto at78 = [&](const std::string& date) {
+    return umbrage({"hours", box_, "--lat", "78", "--lon", "15", "--date", date, "--tz", "UTC", "--points", points,
+                    "-o", file("n.csv")});
+  };
+  const Ran night = at78("2026-12-21");
+  EXPECT_EQ(night.code, 0);
+  EXPECT_THAT(night.err, HasSubstr("below the horizon"));
+  EXPECT_EQ(lines("n.csv")[1], "0.0000,0.0000,");
+  const Ran day = at78("2026-06-21");
+  EXPECT_THAT(day.err, HasSubstr("up all the time"));
+  EXPECT_EQ(lines("n.csv")[1], "24.0000,24.0000,00:00:00-24:00:00");
+}
+
+}  // namespace
+}  // namespace umbrage::cli_test
