@@ -31,7 +31,7 @@ const std::vector<ForeignRule>& foreignRules() {
       {"Inventor/", {"io", "coin"}},
       {"geos", {"io"}},
       {"proj.h", {"geo"}},
-      {"gdal", {"io"}},
+      {"gdal", {"io", "report"}},
       {"cpl_", {"io"}},
       {"ogr_", {"io"}},
       {"polyclipping/", {"outline"}},
