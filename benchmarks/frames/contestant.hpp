@@ -37,8 +37,9 @@ struct Entry {
   std::function<Result<std::unique_ptr<Contestant>>(const Stage&, const Shot&)> enter;
 };
 
-/// A technique's whole frame: everything that a moved light demands, until mask and surface lie in main memory.
-[[nodiscard]] Entry techniqueEntry(const shadow::TechniqueEntry& technique);
+/// A technique's whole frame: everything that a moved light demands, until mask and surface lie in main memory. `shaded`: and then the picture,
+/// lit and coloured on the processor; its name ends in "_picture".
+[[nodiscard]] Entry techniqueEntry(const shadow::TechniqueEntry& technique, bool shaded = false);
 
 /// Bare Embree shadow rays (bare_rays.hpp) from a depth buffer that costs nothing here: no frame, but the least that tracing can cost.
 [[nodiscard]] Entry bareRaysEntry();

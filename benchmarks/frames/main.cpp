@@ -124,7 +124,10 @@ bool apply(Options& o, const std::string& name, const std::string& value) {
 int main(int argc, char** argv) {
   using namespace umbrage::benchmarks;
   Options options;
-  for (const auto& technique : allTechniques()) options.entries.push_back(techniqueEntry(technique));
+  for (const auto& technique : allTechniques()) {
+    options.entries.push_back(techniqueEntry(technique));
+    if (technique.traits.name == "zpass_cpu") options.entries.push_back(techniqueEntry(technique, true));
+  }
   options.entries.push_back(bareRaysEntry());
   bool good = argc >= 2;
   for (int i = 2; i < argc; ++i) {

@@ -23,15 +23,18 @@ scene::Light moved(scene::Light light, double shift) {
 
 class OwnFrame : public Contestant {
  public:
-  OwnFrame(const Stage& stage, const Shot& shot, std::unique_ptr<shadow::Technique> technique)
-      : stage_(stage), shot_(shot), technique_(std::move(technique)) {}
+  OwnFrame(const Stage& stage, const Shot& shot, std::unique_ptr<shadow::Technique> technique, bool shaded)
+      : stage_(stage), shot_(shot), technique_(std::move(technique)), shaded_(shaded) {}
 
   Result<double> frame(double shift) override {
     const scene::Light light = moved(shot_.light, shift);
     const auto start = Clock::now();
     auto shading = technique_->shade({shot_.camera, {&light, 1}});
-    const double time = millisecondsSince(start);
     if (!shading) return tl::unexpected(shading.error());
+    const double masked = millisecondsSince(start);
+    if (shaded_) picture_ = composed(*shading, light);
+    const double time = millisecondsSince(start);
+    if (shaded_) phases_["shading"].push_back(time - masked);
     for (const shadow::PhaseTime& p : shading->stats.phases) phases_[p.name].push_back(p.milliseconds);
     last_ = std::move(*shading);
     return time;
@@ -44,15 +47,21 @@ class OwnFrame : public Contestant {
   }
 
   Result<void> picture(const std::filesystem::path& path) override {
-    return png::write(path, shadow::composite(stage_.staged.scene, stage_.geometry->surfaces, shot_.camera,
-                                              last_.surface, {&shot_.light, 1}, last_.masks));
+    return png::write(path, composed(last_, shot_.light));
   }
 
  private:
+  [[nodiscard]] image::RgbImage composed(const shadow::Shading& shading, const scene::Light& light) const {
+    return shadow::composite(stage_.staged.scene, stage_.geometry->surfaces, shot_.camera, shading.surface, {&light, 1},
+                             shading.masks);
+  }
+
   const Stage& stage_;
   Shot shot_;
   std::unique_ptr<shadow::Technique> technique_;
+  bool shaded_;
   shadow::Shading last_;
+  image::RgbImage picture_;
   std::map<std::string, std::vector<double>> phases_;
 };
 
@@ -80,12 +89,12 @@ class BareFrame : public Contestant {
 
 }  // namespace
 
-Entry techniqueEntry(const shadow::TechniqueEntry& technique) {
-  return {technique.traits.name,
-          [technique](const Stage& stage, const Shot& shot) -> Result<std::unique_ptr<Contestant>> {
+Entry techniqueEntry(const shadow::TechniqueEntry& technique, bool shaded) {
+  return {technique.traits.name + (shaded ? "_picture" : ""),
+          [technique, shaded](const Stage& stage, const Shot& shot) -> Result<std::unique_ptr<Contestant>> {
             auto made = prepared(technique, stage);
             if (!made) return tl::unexpected(made.error());
-            return std::make_unique<OwnFrame>(stage, shot, std::move(*made));
+            return std::make_unique<OwnFrame>(stage, shot, std::move(*made), shaded);
           }};
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "umbrage/shadow/finders/threads.hpp"
+
 namespace umbrage::shadow {
 namespace {
 
@@ -32,6 +34,12 @@ struct PreparedLight {
   Vec3 radiance;  // colour x intensity
 };
 
+// What the pixels of one triangle have in common; mostly the next shows the same.
+struct Face {
+  std::uint32_t triangle = kNoTriangle;
+  Vec3 normal{0.0}, colour{0.0};
+};
+
 std::vector<PreparedLight> prepare(std::span<const scene::Light> lights, const Vec3& origin) {
   std::vector<PreparedLight> prepared;
   for (const scene::Light& light : lights)
@@ -56,7 +64,7 @@ Vec3 maskValue(const LightMask& mask, int x, int y) {
 
 std::uint8_t encodeSrgb(double linear) {
   const double bounded = linear > 0.0 ? std::min(linear, 1.0) : 0.0;  // not-a-number is black
-  return curveTable()[static_cast<std::size_t>(std::lround(bounded * kCurveSteps))];
+  return curveTable()[static_cast<std::size_t>(bounded * kCurveSteps + 0.5)];
 }
 
 double decodeSrgb(std::uint8_t code) {
@@ -81,20 +89,27 @@ image::RgbImage composite(const scene::Scene& scene, const scene::Surfaces& surf
   const image::Rgb8 background{code(options.background.x), code(options.background.y), code(options.background.z)};
 
   image::RgbImage picture(camera.width, camera.height, background);
-  for (int y = 0; y < camera.height; ++y) {
+  const auto shadeRow = [&](int y) {
+    Face face;
     for (int x = 0; x < camera.width; ++x) {
       const std::uint32_t t = seen.triangle(x, y);
       if (t == kNoTriangle) continue;
       const Vec3 ray = rays.through(x + 0.5, y + 0.5);
-      Vec3 n = glm::normalize(surfaces.normal(t));
-      if (glm::dot(n, ray) > 0.0) n = -n;
+      if (t != face.triangle) face = {t, glm::normalize(surfaces.normal(t)), scene.materials[surfaces.materials[t]].colour};
+      const Vec3 n = glm::dot(face.normal, ray) > 0.0 ? -face.normal : face.normal;
       const Vec3 point = eye + double(seen.depth(x, y)) * ray;
       Vec3 light(skyLight(options.ambient, n, up));
       for (std::size_t i = 0; i < masks.size(); ++i)
         if (const Vec3 m = maskValue(masks[i], x, y); m != Vec3(0.0)) light += m * received(prepared[i], point, n);
-      picture(x, y) = encode(scene.materials[surfaces.materials[t]].colour * light);
+      picture(x, y) = encode(face.colour * light);
     }
-  }
+  };
+  constexpr std::size_t kRowsPerThread = 64;
+  const auto rows = static_cast<std::size_t>(camera.height);
+  const auto threads = static_cast<unsigned>(std::min<std::size_t>(threadCount(0), 1 + rows / kRowsPerThread));
+  inParts(rows, 1, threads, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end; ++y) shadeRow(static_cast<int>(y));
+  });
   return picture;
 }
 
