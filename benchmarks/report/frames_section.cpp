@@ -67,8 +67,8 @@ std::string table(const FrameTimes& all, const std::vector<std::string>& names,
 
 // What our frames are made of: a row for each shot and technique that works in the phases of shadow volumes.
 std::string phases(const FrameTimes& all) {
-  constexpr const char* kNames[] = {"depth",   "facing", "tiles",   "silhouette", "useless", "layers",
-                                    "extrude", "upload", "volumes", "lit",        "readback"};
+  constexpr const char* kNames[] = {"surface", "depth",   "facing", "tiles",   "silhouette", "useless",  "layers",
+                                    "sides",   "extrude", "upload", "volumes", "lit",        "readback", "shading"};
   std::string out = "| view | technique |", rule = "|---|---|";
   for (const char* name : kNames) out += fmt::format(" {} |", name), rule += "---:|";
   out += "\n" + rule + "\n";
