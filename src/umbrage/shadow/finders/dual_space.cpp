@@ -5,6 +5,7 @@
 #include <span>
 
 #include "umbrage/base/check.hpp"
+#include "umbrage/shadow/finders/threads.hpp"
 
 namespace umbrage::shadow {
 namespace {
@@ -133,17 +134,29 @@ DualPlane dualPlane(const CasterSet& casters, const DualFrame& frame, std::uint3
   return {{float(n.x), float(n.y), float(n.z), float(d)}, true};
 }
 
-DualEdges dualEdges(const CasterSet& casters) {
+DualEdges dualEdges(const CasterSet& casters, unsigned threads) {
   UMBRAGE_CHECK(casters.edges.size() <= kTagEdge, "too many edges for the dual space");
-  DualEdges dual;
-  dual.frame = dualFrame(casters);
-  std::vector<DualPlane> planes;
-  planes.reserve(casters.triangles.size());
-  for (std::uint32_t t = 0; t < casters.triangles.size(); ++t) planes.push_back(dualPlane(casters, dual.frame, t));
-  dual.segments.reserve(casters.edges.size());
-  Splitter splitter(casters, planes, dual);
-  for (std::uint32_t e = 0; e < casters.edges.size(); ++e) splitter.split(e);
-  return dual;
+  constexpr std::size_t kWorthAThread = 50'000;  // triangles or edges
+  const std::size_t edges = casters.edges.size(), triangles = casters.triangles.size();
+  const auto parts = static_cast<unsigned>(std::clamp<std::size_t>(edges / kWorthAThread, 1, threads));
+  const DualFrame frame = dualFrame(casters);
+  std::vector<DualPlane> planes(triangles);
+  inParts(triangles, 1, parts, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) planes[t] = dualPlane(casters, frame, static_cast<std::uint32_t>(t));
+  });
+  std::vector<DualEdges> found(parts);
+  inParts(edges, 1, parts, [&](unsigned part, std::size_t begin, std::size_t end) {
+    found[part].segments.reserve(part == 0 ? edges : end - begin);  // the others join the first
+    Splitter splitter(casters, planes, found[part]);
+    for (std::size_t e = begin; e < end; ++e) splitter.split(static_cast<std::uint32_t>(e));
+  });
+  DualEdges all = std::move(found[0]);
+  all.frame = frame;
+  for (unsigned part = 1; part < parts; ++part) {
+    all.segments.insert(all.segments.end(), found[part].segments.begin(), found[part].segments.end());
+    all.always.insert(all.always.end(), found[part].always.begin(), found[part].always.end());
+  }
+  return all;
 }
 
 }  // namespace umbrage::shadow

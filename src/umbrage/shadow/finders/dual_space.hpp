@@ -65,7 +65,8 @@ struct DualEdges {
   std::vector<DualEdge> segments;
   std::vector<std::uint32_t> always;  ///< edges that must be asked every time, since a face is a sliver
 };
+/// 1. The same in the same order, whatever the number of threads.
 /// REQUIRES: fewer than 2^28 edges.
-[[nodiscard]] DualEdges dualEdges(const CasterSet& casters);
+[[nodiscard]] DualEdges dualEdges(const CasterSet& casters, unsigned threads);
 
 }  // namespace umbrage::shadow

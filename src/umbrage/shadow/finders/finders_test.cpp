@@ -283,6 +283,21 @@ TEST(Spread, OrdersTheSameInAnyNumberOfThreadsAndLosesNothing) {
   EXPECT_EQ(one, points);
 }
 
+TEST(Dual, IsTheSameInAnyNumberOfThreads) {
+  Mesh m = test_meshes::smooth(120'000);
+  for (std::size_t t = 0; t < m.triangles.size(); t += 100) {  // slivers
+    mesh::Triangle& corners = m.triangles[t];
+    m.positions.push_back((m.positions[corners[0]] + m.positions[corners[1]]) * 0.5f);
+    corners[2] = static_cast<std::uint32_t>(m.positions.size() - 1);
+  }
+  const CasterSet casters = m.casters();
+  const DualEdges one = dualEdges(casters, 1), three = dualEdges(casters, 3);
+  EXPECT_FALSE(one.always.empty());
+  EXPECT_EQ(one.always, three.always);
+  const auto same = [](const DualEdge& a, const DualEdge& b) { return a.point == b.point && a.tag == b.tag; };
+  EXPECT_TRUE(std::equal(one.segments.begin(), one.segments.end(), three.segments.begin(), three.segments.end(), same));
+}
+
 // --- cost, in edges -------------------------------------------------------------------------------------------------------
 
 struct Cost {

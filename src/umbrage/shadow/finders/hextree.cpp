@@ -29,7 +29,7 @@ Hextree::Hextree(std::shared_ptr<const CasterSet> casters, const FinderOptions& 
     : SilhouetteFinder(FinderKind::hextree, casters),
       exact_(*casters),
       avx2_(options.vectorUnits && processorHasAvx2()) {
-  DualEdges dual = dualEdges(*casters);
+  DualEdges dual = dualEdges(*casters, threadCount(options.threads));
   frame_ = dual.frame;
   always_ = std::move(dual.always);
   tree_ = SegmentTree<8>::build<8>(dual.segments, threadCount(options.threads), coordinate,

@@ -76,7 +76,7 @@ DualEdge outwardFirst(DualEdge segment) {
 
 Hough::Hough(std::shared_ptr<const CasterSet> casters, const FinderOptions& options)
     : SilhouetteFinder(FinderKind::hough, casters), exact_(*casters), avx2_(options.vectorUnits && processorHasAvx2()) {
-  DualEdges dual = dualEdges(*casters);
+  DualEdges dual = dualEdges(*casters, threadCount(options.threads));
   frame_ = dual.frame;
   always_ = std::move(dual.always);
   const auto border = std::partition(dual.segments.begin(), dual.segments.end(), [](const DualEdge& s) {

@@ -10,6 +10,8 @@
 #include <queue>
 #include <utility>
 
+#include "umbrage/shadow/finders/threads.hpp"
+
 namespace umbrage::shadow {
 namespace {
 
@@ -42,7 +44,7 @@ Box3 octant(const Box3& box, unsigned i) {
 
 PotentiallyVisible::PotentiallyVisible(std::shared_ptr<const CasterSet> casters, const FinderOptions& options)
     : SilhouetteFinder(FinderKind::potentiallyVisible, casters), exact_(*casters) {
-  DualEdges dual = dualEdges(*casters);
+  DualEdges dual = dualEdges(*casters, threadCount(options.threads));
   frame_ = dual.frame;
   always_ = std::move(dual.always);
   segments_ = std::move(dual.segments);

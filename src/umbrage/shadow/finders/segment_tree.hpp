@@ -55,9 +55,7 @@ class SegmentTree {
   std::size_t find(const DualPoint& light, const Judge& judge, const TagReader& reader, bool avx2,
                    Collector& out) const {
     if (blockCount_ == 0) return 0;
-    std::vector<std::uint32_t> doubtful;
-    visit(levels_.size() - 1, 0, judge, reader, doubtful, out);
-    return readBlocks(doubtful, light, reader, avx2, out);
+    return readLeaves(doubtfulLeaves(judge, reader, out), light, reader, avx2, out);
   }
 
   [[nodiscard]] std::size_t memory() const {
@@ -68,7 +66,7 @@ class SegmentTree {
 
  private:
   static constexpr std::size_t kLeafBlocks = 2, kLeaf = kLeafBlocks * kLanes;
-  static constexpr std::size_t kNodeBlocks = kArity / kLanes, kAhead = 8;
+  static constexpr std::size_t kNodeBlocks = kArity / kLanes, kAhead = 6;
 
   struct Box {
     Point low, high;
@@ -144,9 +142,26 @@ class SegmentTree {
     return std::size_t{1} << (level * static_cast<std::size_t>(std::countr_zero(kArity)));
   }
 
+  // One level after the other, not one node after the other, so that it is known early which boxes and blocks come next.
   template <class Judge>
-  void visit(std::size_t level, std::size_t node, const Judge& judge, const TagReader& reader,
-             std::vector<std::uint32_t>& doubtful, Collector& out) const {
+  [[nodiscard]] std::vector<std::uint32_t> doubtfulLeaves(const Judge& judge, const TagReader& reader,
+                                                          Collector& out) const {
+    std::vector<std::uint32_t> nodes{0}, children;
+    for (std::size_t level = levels_.size(); level-- > 0;) {
+      children.clear();
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (i + kAhead < nodes.size()) prefetch<kNodeBlocks>(levels_[level].data() + nodes[i + kAhead] * kNodeBlocks);
+        judgeChildren(level, nodes[i], judge, reader, children, out);
+      }
+      nodes.swap(children);
+    }
+    return nodes;
+  }
+
+  // Appends those in doubt.
+  template <class Judge>
+  void judgeChildren(std::size_t level, std::size_t node, const Judge& judge, const TagReader& reader,
+                     std::vector<std::uint32_t>& doubtful, Collector& out) const {
     const std::size_t below = leavesBelow(level), children = (leafCount() + below - 1) / below;
     for (std::size_t b = node * kNodeBlocks; b < (node + 1) * kNodeBlocks && b * kLanes < children; ++b) {
       const std::uint32_t live = (1u << std::min<std::size_t>(kLanes, children - b * kLanes)) - 1;
@@ -157,15 +172,15 @@ class SegmentTree {
         takeAll((b * kLanes + lane) * below * kLeafBlocks, below * kLeafBlocks, (fate.falling >> lane & 1) != 0, reader,
                 out);
       }
-      for (std::uint32_t bits = live & ~(fate.skipped | crossed); bits != 0; bits &= bits - 1) {
-        const std::size_t child = b * kLanes + static_cast<std::size_t>(std::countr_zero(bits));
-        if (level > 0)
-          visit(level - 1, child, judge, reader, doubtful, out);
-        else
-          for (std::size_t i = child * kLeafBlocks; i < std::min((child + 1) * kLeafBlocks, blockCount_); ++i)
-            doubtful.push_back(static_cast<std::uint32_t>(i));
-      }
+      for (std::uint32_t bits = live & ~(fate.skipped | crossed); bits != 0; bits &= bits - 1)
+        doubtful.push_back(static_cast<std::uint32_t>(b * kLanes + static_cast<std::size_t>(std::countr_zero(bits))));
     }
+  }
+
+  template <std::size_t Count, class T>
+  static void prefetch(const T* first) {
+    const char* bytes = reinterpret_cast<const char*>(first);
+    for (std::size_t line = 0; line < Count * sizeof(T); line += 64) __builtin_prefetch(bytes + line);
   }
 
   void takeAll(std::size_t first, std::size_t count, bool falling, const TagReader& reader, Collector& out) const {
@@ -173,17 +188,16 @@ class SegmentTree {
       for (std::size_t i = 0; i < lanesOf(b); ++i) reader.crossed(blocks_[b].tag[i], falling, out);
   }
 
-  std::size_t readBlocks(std::span<const std::uint32_t> list, const DualPoint& light, const TagReader& reader,
+  std::size_t readLeaves(std::span<const std::uint32_t> leaves, const DualPoint& light, const TagReader& reader,
                          bool avx2, Collector& out) const {
     std::size_t tested = 0;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      if (i + kAhead < list.size()) {
-        const char* next = reinterpret_cast<const char*>(&blocks_[list[i + kAhead]]);
-        for (std::size_t line = 0; line < sizeof(SegmentBlock); line += 64) __builtin_prefetch(next + line);
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      if (i + kAhead < leaves.size()) prefetch<kLeafBlocks>(blocks_.get() + leaves[i + kAhead] * kLeafBlocks);
+      const std::size_t first = leaves[i] * kLeafBlocks;
+      for (std::size_t b = first; b < std::min(first + kLeafBlocks, blockCount_); ++b) {
+        reader.read(blocks_[b], laneSigns(blocks_[b], light, avx2), (1u << lanesOf(b)) - 1, out);
+        tested += lanesOf(b);
       }
-      const SegmentBlock& block = blocks_[list[i]];
-      reader.read(block, laneSigns(block, light, avx2), (1u << lanesOf(list[i])) - 1, out);
-      tested += lanesOf(list[i]);
     }
     return tested;
   }

@@ -118,12 +118,22 @@ struct Cells {
 
   /// Of all items. Several at a time, since each step waits for the one before.
   template <class Item, class Key>
-  [[nodiscard]] std::vector<std::uint32_t> cellsOf(std::span<const Item> items, const Key& key) const {
-    constexpr std::size_t kTogether = 8;
+  [[nodiscard]] std::vector<std::uint32_t> cellsOf(std::span<const Item> items, unsigned threads,
+                                                   const Key& key) const {
     std::vector<std::uint32_t> cells(items.size());
-    for (std::size_t i = 0; i < items.size(); i += kTogether) {
+    inParts(items.size(), 1, threads,
+            [&](unsigned, std::size_t begin, std::size_t end) { lay(items, begin, end, key, cells); });
+    return cells;
+  }
+
+ private:
+  template <class Item, class Key>
+  void lay(std::span<const Item> items, std::size_t begin, std::size_t end, const Key& key,
+           std::vector<std::uint32_t>& cells) const {
+    constexpr std::size_t kTogether = 8;
+    for (std::size_t i = begin; i < end; i += kTogether) {
       std::array<std::uint32_t, kTogether> node{};
-      const std::size_t count = std::min(kTogether, items.size() - i);
+      const std::size_t count = std::min(kTogether, end - i);
       for (unsigned level = 0; level < levels; ++level)
         for (std::size_t j = 0; j < count; ++j) {
           const Plane plane = planes[node[j]];
@@ -131,7 +141,6 @@ struct Cells {
         }
       for (std::size_t j = 0; j < count; ++j) cells[i + j] = node[j] + 1 - (1u << levels);
     }
-    return cells;
   }
 };
 
@@ -149,7 +158,7 @@ void divide(Cells& cells, std::span<Item> sample, std::size_t node, const Key& k
 
 /// The items' numbers cell by cell; about `perCell` share one.
 template <int Axes, class Item, class Key>
-std::vector<std::uint32_t> byCells(std::span<const Item> items, std::size_t perCell, const Key& key) {
+std::vector<std::uint32_t> byCells(std::span<const Item> items, std::size_t perCell, unsigned threads, const Key& key) {
   constexpr std::size_t kSamples = 16;  // a cell
   Cells cells;
   cells.levels = static_cast<unsigned>(std::bit_width(items.size() / perCell));
@@ -158,7 +167,7 @@ std::vector<std::uint32_t> byCells(std::span<const Item> items, std::size_t perC
   const std::size_t step = std::max<std::size_t>(1, items.size() / (kSamples << cells.levels));
   for (std::size_t i = 0; i < items.size(); i += step) sample.push_back(items[i]);
   divide<Axes>(cells, std::span(sample), 0, key);
-  const std::vector<std::uint32_t> cell = cells.cellsOf(items, key);
+  const std::vector<std::uint32_t> cell = cells.cellsOf(items, threads, key);
   std::vector<std::uint32_t> next((std::size_t{1} << cells.levels) + 1, 0), order(items.size());
   for (const std::uint32_t c : cell) ++next[c + 1];
   for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
@@ -180,8 +189,9 @@ inline std::vector<std::uint32_t> numbers(std::size_t count) {
 template <int Axes, class Item, class Key, class Emit>
 void spread(std::span<const Item> items, const TreeShape& shape, const Key& key, unsigned threads, const Emit& emit) {
   const std::size_t stretch = shape.leaf * shape.arity * 8;
-  const std::vector<std::uint32_t> order =
-      items.size() > 4 * stretch ? spreading::byCells<Axes>(items, stretch, key) : spreading::numbers(items.size());
+  const std::vector<std::uint32_t> order = items.size() > 4 * stretch
+                                               ? spreading::byCells<Axes>(items, stretch, threads, key)
+                                               : spreading::numbers(items.size());
   const std::size_t stretches = (items.size() + stretch - 1) / stretch;
   const auto parts = static_cast<unsigned>(std::clamp<std::size_t>(stretches / 16, 1, threads));
   inParts(stretches, 1, parts, [&](unsigned, std::size_t firstStretch, std::size_t lastStretch) {
