@@ -13,7 +13,9 @@ namespace {
 
 // Hills and towers, 90 x 70 cells of 2 m, with a hole.
 std::filesystem::path writeTerrain() {
-  const auto path = std::filesystem::temp_directory_path() / "umbrage-terrain-test.asc";
+  // Every test in a program of its own may run at once with the others.
+  const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+  const auto path = std::filesystem::temp_directory_path() / ("umbrage-terrain-" + test + ".asc");
   std::ofstream out(path);
   out << "ncols 90\nnrows 70\nxllcorner 5000\nyllcorner 7000\ncellsize 2\nNODATA_value -9999\n";
   for (int row = 0; row < 70; ++row)
