@@ -423,6 +423,8 @@ Result<ExactHours> ExactHours::build(const scene::Scene& scene, const sun::Place
 Result<SunHours> ExactHours::at(std::span<const Receiver> receivers, const SunCourse& course,
                                 const ProgressSink& progress) const {
   UMBRAGE_CHECK(course.place().latitude == impl_->place.latitude, "the course is of another place");
+  // Once for certain: on a busy machine the other threads may leave this one nothing to do and to report.
+  if (!reportProgress(progress, 0.0, "sun hours")) return fail(ErrorCode::cancelled, "cancelled");
   std::vector<ReadyLeg> legs;
   for (const SunLeg& leg : course.legs()) legs.emplace_back(leg, impl_->frame);
   const detail::Groups groups = detail::makeGroups(receivers, 1.4 * impl_->tree.leafSize);
