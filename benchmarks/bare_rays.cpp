@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "embree_casters.hpp"
 #include "umbrage/shadow/facing.hpp"
 
 namespace umbrage::benchmarks {
@@ -27,24 +28,6 @@ namespace {
 
 constexpr int kTileWidth = 32, kTileHeight = 16;
 
-void addCasters(RTCDevice device, RTCScene tree, const scene::Surfaces& s) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  const auto casting = static_cast<std::size_t>(std::count(s.casts.begin(), s.casts.end(), 1));
-  auto* points = static_cast<float*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, s.positions.size()));
-  auto* corners = static_cast<std::uint32_t*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, casting));
-  for (const Vec3f& p : s.positions)
-    for (int k = 0; k < 3; ++k) *points++ = p[k];
-  for (std::size_t t = 0; t < s.triangles.size(); ++t)
-    if (s.casts[t] != 0) corners = std::copy_n(s.triangles[t].data(), 3, corners);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(tree, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
-  rtcCommitScene(tree);
-}
-
 }  // namespace
 
 BareRays::BareRays(const View& view) : state_(new State{view, {}, {}, {}, {}, {}, {}, {}, {}}) {
@@ -53,6 +36,8 @@ BareRays::BareRays(const View& view) : state_(new State{view, {}, {}, {}, {}, {}
   s.tree = rtcNewScene(s.device);
   const scene::Surfaces& surfaces = view.geometry->surfaces;
   addCasters(s.device, s.tree, surfaces);
+  rtcSetSceneFlags(s.tree, RTC_SCENE_FLAG_ROBUST);
+  rtcCommitScene(s.tree);
   const Vec4 light = scene::homogeneous(view.light, surfaces.origin);
   const Vec3 eye = view.camera.eye - surfaces.origin;
   s.facing = shadow::visibleSideFacesLight(surfaces, Vec4(eye, 1.0), light);

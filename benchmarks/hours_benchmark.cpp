@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "embree_casters.hpp"
 #include "median.hpp"
 #include "scenes/staged_scene.hpp"
 #include "umbrage/scene/surfaces.hpp"
@@ -39,19 +40,7 @@ const sun::Place kPlace{Angle::degrees(48), Angle::degrees(16)};
 class Rays {
  public:
   explicit Rays(const scene::Surfaces& s) {
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    const auto casting = static_cast<std::size_t>(std::count(s.casts.begin(), s.casts.end(), 1));
-    auto* points = static_cast<float*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, s.positions.size()));
-    auto* corners = static_cast<std::uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, casting));
-    for (const Vec3f& p : s.positions)
-      for (int k = 0; k < 3; ++k) *points++ = p[k];
-    for (std::size_t t = 0; t < s.triangles.size(); ++t)
-      if (s.casts[t] != 0) corners = std::copy_n(s.triangles[t].data(), 3, corners);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(tree_, geometry);
-    rtcReleaseGeometry(geometry);
+    addCasters(device_, tree_, s);
     const auto start = Clock::now();
     rtcCommitScene(tree_);
     buildTime = millisecondsSince(start);

@@ -25,7 +25,7 @@ const std::vector<ForeignRule>& foreignRules() {
       {"epoxy/", {"gl", "examples", "tests"}, true},
       {"EGL/", {"gl", "examples"}},
       {"embree3/", {"trace", "benchmarks"}},
-      {"tbb/", {"raster", "trace", "techniques_cpu", "study", "benchmarks"}},
+      {"tbb/", {"parallel", "trace", "techniques_cpu", "study", "benchmarks"}},
       {"assimp/", {"io"}},
       {"tiny_gltf.h", {"io"}},
       {"Inventor/", {"io", "coin"}},

@@ -27,4 +27,8 @@ struct Box3 {
   [[nodiscard]] double radius() const { return 0.5 * glm::length(size()); }
 };
 
+/// Whether a box, widened by `margin` on all sides, meets the way from `from` to `to`, which is homogeneous: a point, or with w = 0 a direction
+/// that is followed to infinity.
+[[nodiscard]] bool meetsWay(const Box3& box, double margin, const Vec3& from, const Vec4& to);
+
 }  // namespace umbrage

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "umbrage/parallel/for_each.hpp"
 #include "umbrage/raster/blocks.hpp"
-#include "umbrage/raster/workers.hpp"
 
 namespace umbrage::raster {
 
@@ -24,7 +24,7 @@ class Bands {
     const auto parts = static_cast<int>((count + kPart - 1) / kPart);
     if (parts_.size() < static_cast<std::size_t>(parts)) parts_.resize(static_cast<std::size_t>(parts));
     used_ = static_cast<std::size_t>(parts);
-    return forEach(parts, [&](int number) {
+    return parallel::forEach(parts, [&](int number) {
       Part& part = parts_[static_cast<std::size_t>(number)];
       part.patches.clear();
       part.inBand.resize(static_cast<std::size_t>(bands_));

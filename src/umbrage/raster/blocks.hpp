@@ -7,18 +7,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "umbrage/base/vector_units.hpp"
 #include "umbrage/image/image.hpp"
 #include "umbrage/raster/patch.hpp"
 
-/// Before a function that works on many lanes: GCC compiles it twice, with all that it calls of UMBRAGE_IN_BLOCKS, and the program takes the
-/// version for wider vectors where the processor has them. Nothing is contracted, so both give the same bits. (Sanitizers are not up yet when such
-/// functions are chosen.)
-#if !defined(UMBRAGE_PLAIN_BLOCKS) && defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define UMBRAGE_BLOCKS [[gnu::noinline, gnu::target_clones("avx2", "default")]]
-#else
-#define UMBRAGE_BLOCKS [[gnu::noinline]]
-#endif
+/// Inlined into functions with UMBRAGE_VECTOR_UNITS, and compiled as they are.
 #define UMBRAGE_IN_BLOCKS [[gnu::always_inline]] inline
 
 namespace umbrage::raster {
@@ -126,7 +119,8 @@ UMBRAGE_IN_BLOCKS Span columnsOf(const Patch& patch, int begin, int end, double 
   const Double4 first = patch.y * y0, last = patch.y * y1;
   const Double4 behind{0.0, 0.0, 0.0, farthest * patch.distance};
   const Double4 highest = patch.c + patch.slack + (first > last ? first : last) - behind;
-  const auto most = lanesOf<double>(highest), border = lanesOf<double>(-highest / patch.x), slope = lanesOf<double>(patch.x);
+  const auto most = lanesOf<double>(highest), border = lanesOf<double>(-highest / patch.x),
+             slope = lanesOf<double>(patch.x);
   double low = patch.x0, high = patch.x1;
   for (std::size_t k = 0; k < 4; ++k) {
     if (slope[k] > 0.0)

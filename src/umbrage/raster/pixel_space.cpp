@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "umbrage/raster/workers.hpp"
+#include "umbrage/parallel/for_each.hpp"
 
 namespace umbrage::raster {
 namespace {
@@ -32,7 +32,7 @@ Result<void> mapPositions(const PixelSpace& space, std::span<const Vec3f> positi
   out.mapped.resize(positions.size());
   out.outside.resize(positions.size());
   const double width = space.width, height = space.height;
-  return forEach(static_cast<int>((positions.size() + kPart - 1) / kPart), [&](int part) {
+  return parallel::forEach(static_cast<int>((positions.size() + kPart - 1) / kPart), [&](int part) {
     const std::size_t begin = static_cast<std::size_t>(part) * kPart, end = std::min(positions.size(), begin + kPart);
     for (std::size_t i = begin; i < end; ++i) {
       out.mapped[i] = space.map(Vec3(positions[i]));

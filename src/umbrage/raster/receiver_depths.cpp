@@ -12,7 +12,7 @@ struct Depths {
   float farthest = ReceiverDepths::kNothing, nearest = 0.0f;
 };
 
-UMBRAGE_BLOCKS Depths depthsOf(const float* nearness, std::uint64_t receivers) {
+UMBRAGE_VECTOR_UNITS Depths depthsOf(const float* nearness, std::uint64_t receivers) {
   Depths d;
   if (receivers == ~std::uint64_t{0}) {
     Float8 low = reinterpret_cast<const Float8&>(nearness[0]), high = low;
@@ -63,14 +63,14 @@ Result<void> ReceiverDepths::find(const BlockImage<float>& nearness, std::span<c
   farthest_.assign(stride_ * rows, kNothing), nearest_.assign(stride_ * rows, 0.0f);
   ofRow_.resize(rows), ofTileRow_.resize(tileRows);
   ofTile_.assign(stride_ * tileRows, kNothing);
-  return forEach(static_cast<int>(tileRows), [&](int tileRow) {
+  return parallel::forEach(static_cast<int>(tileRows), [&](int tileRow) {
     for (int row = tileRow * kTileBlocks; row < std::min(nearness.rows, (tileRow + 1) * kTileBlocks); ++row)
       findRow(nearness, receivers, row);
     findTiles(tileRow, nearness.rows);
   });
 }
 
-UMBRAGE_BLOCKS std::uint64_t ReceiverDepths::tilesBehind(const Patch& patch, int row) const {
+UMBRAGE_VECTOR_UNITS std::uint64_t ReceiverDepths::tilesBehind(const Patch& patch, int row) const {
   constexpr int kTile = kBlock * kTileBlocks;
   const float farthest = ofTileRow_[static_cast<std::size_t>(row)];
   if (farthest >= kNothing) return 0;

@@ -155,7 +155,9 @@ class BandCounting {
   std::vector<std::int32_t> whole_;
 };
 
-UMBRAGE_BLOCKS void addPatch(BandCounting& band, const Patch& patch, std::uint64_t tiles) { band.add(patch, tiles); }
+UMBRAGE_VECTOR_UNITS void addPatch(BandCounting& band, const Patch& patch, std::uint64_t tiles) {
+  band.add(patch, tiles);
+}
 
 }  // namespace
 
@@ -183,7 +185,7 @@ Result<void> ShadowCount::count(BlockImage<std::int32_t>& out) {
   const Corners corners{request.positions.mapped, request.space.map(request.silhouette.light)};
   eyeCount_ = countAtEye(casters_, request.silhouette, request.space, corners);
   out.resize(request.space.width, request.space.height);
-  return forEach(bands_.count(), [&](int band) {
+  return parallel::forEach(bands_.count(), [&](int band) {
     BandCounting counting(request, corners, depths_, band, out);
     bands_.forEachIn(band, [&](const Patch& patch, std::uint64_t tiles) { addPatch(counting, patch, tiles); });
     counting.finish(eyeCount_);

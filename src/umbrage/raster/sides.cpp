@@ -34,21 +34,10 @@ bool isOutside(const PixelSpace& space, const std::array<Vec3, 4>& hull) {
          all([](const Vec3& p) { return p.z < 0.0; });
 }
 
-// Whether the box of a component, widened, meets the way from the eye to the light. Boxes of single precision hold what is in them.
-bool meets(const Box3& box, const Vec3& eye, const Vec4& light) {
+// Whether a box may hold something between the eye and the light.
+bool mayLieBetween(const Box3& box, const Vec3& eye, const Vec4& light) {
   const double margin = 0x1p-30 * (glm::length(eye) + glm::length(box.max) + glm::length(box.min));
-  const Vec3 way = Vec3(light) - eye * light.w;
-  double enter = 0.0, leave = light.w == 0.0 ? kInfinity : 1.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low = box.min[axis] - margin - eye[axis], high = box.max[axis] + margin - eye[axis];
-    if (way[axis] == 0.0) {
-      if (low > 0.0 || high < 0.0) return false;
-      continue;
-    }
-    const double t0 = low / way[axis], t1 = high / way[axis];
-    enter = std::max(enter, std::min(t0, t1)), leave = std::min(leave, std::max(t0, t1));
-  }
-  return enter <= leave * (1.0 + 0x1p-30) + 0x1p-40;
+  return meetsWay(box, margin, eye, light);
 }
 
 // The part of one triangle in the count at the eye: 1 when the eye lies in its shadow; -1 when its sides are wound the other way round, since
@@ -71,14 +60,14 @@ int countAtEye(const shadow::CasterSet& casters, const shadow::Silhouette& silho
                const Corners& corners) {
   std::vector<std::uint8_t> near(casters.componentCount);
   for (std::uint32_t c = 0; c < casters.componentCount; ++c)
-    near[c] = meets(casters.componentBounds[c], space.eye, silhouette.light);
+    near[c] = mayLieBetween(casters.componentBounds[c], space.eye, silhouette.light);
   int count = 0;
   for (std::uint32_t t = 0; t < casters.triangles.size(); ++t) {
     if (silhouette.side[t] == 0 || near[casters.componentOf[t]] == 0) continue;
     const mesh::Triangle& c = casters.triangles[t];
     Box3 box;
     for (int k = 0; k < 3; ++k) box.add(casters.corner(t, k));
-    if (!meets(box, space.eye, silhouette.light)) continue;
+    if (!mayLieBetween(box, space.eye, silhouette.light)) continue;
     count += shadowAtEye({corners.at(c[0]), corners.at(c[1]), corners.at(c[2])}, silhouette.side[t], corners.light);
   }
   return count;

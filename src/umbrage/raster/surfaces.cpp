@@ -32,8 +32,7 @@ UMBRAGE_IN_BLOCKS bool drawBlock(const BlockPatch& t, const Span& rows, std::uin
     for (int k = 0; k < 3; ++k) edge[k] += t.dy[k];
   }
   if (anyOf(asked))
-    for (int row = rows.begin; row < rows.end; ++row)
-      unsure |= std::uint64_t{bitsOf(askedIn[row])} << (row * kBlock);
+    for (int row = rows.begin; row < rows.end; ++row) unsure |= std::uint64_t{bitsOf(askedIn[row])} << (row * kBlock);
   return anyOf(drawn);
 }
 
@@ -78,7 +77,7 @@ struct BandDrawing {
   }
 };
 
-UMBRAGE_BLOCKS void draw(BandDrawing& band, const Patch& patch) {
+UMBRAGE_VECTOR_UNITS void draw(BandDrawing& band, const Patch& patch) {
   const int begin = std::max(band.first, patch.y0 / kBlock),
             end = std::min(band.last, (patch.y1 + kBlock - 1) / kBlock);
   for (int row = begin; row < end; ++row) {
@@ -143,7 +142,7 @@ Result<void> SurfaceRaster::draw(const PixelSpace& space, const SeenPositions& p
     return done;
   std::sort(edgeOn_.begin(), edgeOn_.end());
   const Corners corners{positions.mapped, {}};
-  return forEach(bands_.count(), [&](int band) {
+  return parallel::forEach(bands_.count(), [&](int band) {
     BandDrawing drawing(corners, out, band);
     bands_.forEachIn(band, [&](const Patch& patch, std::uint64_t) { raster::draw(drawing, patch); });
   });
@@ -153,7 +152,7 @@ Result<shadow::SurfaceBuffer> surfaceBuffer(const PixelSpace& space, const SeenB
   shadow::SurfaceBuffer out{{space.width, space.height, shadow::kNoTriangle},
                             {space.width, space.height, std::numeric_limits<float>::infinity()}};
   const auto scale = static_cast<float>(space.scale);
-  auto done = forEach((space.height + kBand - 1) / kBand, [&](int band) {
+  auto done = parallel::forEach((space.height + kBand - 1) / kBand, [&](int band) {
     forEachRowPiece(seen.triangle.columns, space.width, space.height, band,
                     [&](std::size_t block, std::size_t first, int x, int y, int count) {
                       const float* nearness = seen.nearness.blocks[block].pixel.data() + first;

@@ -7,30 +7,10 @@
 #include "umbrage/render/technique.hpp"
 #include "umbrage/render/uniforms.hpp"
 #include "umbrage/shadow/facing.hpp"
+#include "umbrage/shadow/phase_clock.hpp"
 
 namespace umbrage::render {
 namespace {
-
-// Books wall-clock time on phases, in the order of their first appearance.
-class PhaseClock {
- public:
-  explicit PhaseClock(std::vector<shadow::PhaseTime>& phases) : phases_(phases) {}
-  void end(const std::string& phase) {
-    const auto now = std::chrono::steady_clock::now();
-    const double passed = std::chrono::duration<double, std::milli>(now - last_).count();
-    last_ = now;
-    for (shadow::PhaseTime& p : phases_)
-      if (p.name == phase) {
-        p.milliseconds += passed;
-        return;
-      }
-    phases_.push_back({phase, passed});
-  }
-
- private:
-  std::vector<shadow::PhaseTime>& phases_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 std::string reasonFor(Counting counting, const shadow::LightStats& stats, const LightVolume& volume) {
   const std::size_t groups = volume.groups.size();
@@ -95,7 +75,7 @@ class StencilTechnique final : public GlTechnique {
     if (auto done = target->needMasks(frame.lights.size()); !done) return tl::unexpected(done.error());
 
     shadow::Shading shading;
-    PhaseClock clock(shading.stats.phases);
+    shadow::PhaseClock clock(shading.stats.phases);
     const PhaseEnd ended = [&](const char* phase) { clock.end(phase); };
     if (auto done = render(scope, *target, frame, Product::masks, nullptr, shading.stats, ended); !done)
       return tl::unexpected(done.error());
@@ -113,7 +93,7 @@ class StencilTechnique final : public GlTechnique {
     gl::HostScope scope;
     if (auto done = target.needPicture(); !done) return tl::unexpected(done.error());
     shadow::FrameStats stats;
-    PhaseClock clock(stats.phases);
+    shadow::PhaseClock clock(stats.phases);
     PhaseEnd ended;
     if (timed) ended = [&](const char* phase) { clock.end(phase); };
     if (auto done = render(scope, target, frame, Product::picture, &options, stats, ended); !done)

@@ -68,22 +68,6 @@ bool isOnCaster(const Vec3& p, const CasterSet& casters, std::uint32_t triangle,
   return std::max({outside.x, outside.y, outside.z}) <= threshold && distanceToTriangle(p, a, b, c) <= threshold;
 }
 
-// Whether a box, widened by `margin`, meets the way from p to the light.
-bool meets(const Box3& box, double margin, const Vec3& p, const Vec4& light) {
-  const Vec3 way = Vec3(light) - p * light.w;
-  double enter = 0.0, leave = light.w == 0.0 ? std::numeric_limits<double>::infinity() : 1.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low = box.min[axis] - margin - p[axis], high = box.max[axis] + margin - p[axis];
-    if (way[axis] == 0.0) {
-      if (low > 0.0 || high < 0.0) return false;
-      continue;
-    }
-    enter = std::max(enter, std::min(low / way[axis], high / way[axis]));
-    leave = std::min(leave, std::max(low / way[axis], high / way[axis]));
-  }
-  return enter <= leave;
-}
-
 // Off by irrational-looking fractions, so that an eye on a lattice leaves all its planes.
 constexpr std::array<std::array<double, 3>, 6> kDetours{{{0.5411, 0.3301, 0.7727},
                                                          {-0.6151, 0.7019, 0.3589},
@@ -130,7 +114,7 @@ std::vector<std::uint8_t> boxesBetween(const CasterSet& casters, const Vec4& lig
   const double threshold = (1.0 + 1e-9) * eyeThreshold(casters, light, eye);
   std::vector<std::uint8_t> between(casters.componentCount, 0);
   for (std::uint32_t c = 0; c < casters.componentCount; ++c)
-    between[c] = meets(casters.componentBounds[c], threshold, eye, light) ? 1 : 0;
+    between[c] = meetsWay(casters.componentBounds[c], threshold, eye, light) ? 1 : 0;
   return between;
 }
 

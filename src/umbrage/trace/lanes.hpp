@@ -4,17 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "umbrage/base/vector_units.hpp"
 #include "umbrage/math/vec.hpp"
-
-/// Before a function that loops over lanes: GCC compiles it twice, and the program takes the version for wider vectors where the
-/// processor has them, as Embree does. Nothing is contracted, so both give the same bits. Never inlined: inside another loop GCC
-/// unrolls these loops before it would make vectors of them. (Sanitizers are not up yet when such functions are chosen.)
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define UMBRAGE_LANES [[gnu::noinline, gnu::target_clones("avx2", "default")]]
-#else
-#define UMBRAGE_LANES [[gnu::noinline]]
-#endif
 
 namespace umbrage::trace {
 

@@ -92,7 +92,7 @@ bool edgeOn(float directionX, float directionY, float directionZ, float normalX,
 constexpr std::size_t kDirectionRow = 4, kFarRow = 8;
 
 // Per hit of eight rays in a row: whether single precision cannot be trusted with it.
-UMBRAGE_LANES void doubtful(const float* ray, const float* hit, const Query& query, int* doubt) {
+UMBRAGE_VECTOR_UNITS void doubtful(const float* ray, const float* hit, const Query& query, int* doubt) {
   const float* direction = ray + 8 * kDirectionRow;
   const float* at = ray + 8 * kFarRow;
   const Distances& exact = *query.exact;
@@ -138,7 +138,7 @@ struct Aim {
 // A start is lifted off the surface where that is precise enough; else it lies a little behind it, and every hit is looked at in
 // double precision. The light's height over the surface is, for a direction, the sine of its elevation.
 template <bool kFinite>
-UMBRAGE_LANES void aim(const Aim& a, const SurfacePoints8& points, RTCRay8& rays, Distances& exact) {
+UMBRAGE_VECTOR_UNITS void aim(const Aim& a, const SurfacePoints8& points, RTCRay8& rays, Distances& exact) {
   for (std::size_t k = 0; k < 8; ++k) {
     const Vec3 point = points.position[k], normal = points.normal[k];
     const double reach =

@@ -74,13 +74,13 @@ Result<void> CpuVolumes::findReceivers(const Vec4& light) {
   FacingMemo facing(geometry_->surfaces, Vec4(space_.eye, 1.0), light);
   receivers_.assign(seen_.triangle.blocks.size(), 0);
   const auto columns = static_cast<std::size_t>(seen_.triangle.columns);
-  return raster::forEach(seen_.triangle.rows, [&](int row) {
+  return parallel::forEach(seen_.triangle.rows, [&](int row) {
     for (std::size_t i = static_cast<std::size_t>(row) * columns, end = i + columns; i < end; ++i)
       receivers_[i] = receiversOf(seen_.triangle.blocks[i].pixel, facing);
   });
 }
 
-Result<void> CpuVolumes::look(const scene::Light& light, shadow::FinderKind finder, PhaseClock& clock) {
+Result<void> CpuVolumes::look(const scene::Light& light, shadow::FinderKind finder, shadow::PhaseClock& clock) {
   if (finder == shadow::FinderKind::gpu)
     finder = shadow::FinderKind::automatic;  // there is none here, and the edges are the same
   if (finder_ == nullptr || finder_->kind() != finder)
@@ -99,7 +99,7 @@ std::size_t CpuVolumes::receiverCount() const {
   return count;
 }
 
-Result<std::size_t> CpuVolumes::plan(PhaseClock& clock) {
+Result<std::size_t> CpuVolumes::plan(shadow::PhaseClock& clock) {
   Box3 room = geometry_->surfaces.bounds;
   room.add(space_.eye);
   const raster::ShadowCount::Request request{.space = space_,
@@ -115,7 +115,8 @@ Result<std::size_t> CpuVolumes::plan(PhaseClock& clock) {
   return count_.pieceCount();
 }
 
-Result<shadow::LightMask> CpuVolumes::mask(const scene::Camera& camera, const scene::Light& light, PhaseClock& clock) {
+Result<shadow::LightMask> CpuVolumes::mask(const scene::Camera& camera, const scene::Light& light,
+                                           shadow::PhaseClock& clock) {
   if (auto done = count_.count(counts_); !done) return tl::unexpected(done.error());
   clock.end("volumes");
   auto mask = paint(camera, light);
@@ -151,7 +152,7 @@ Result<shadow::LightMask> CpuVolumes::paint(const scene::Camera& camera, const s
     const Vec3 ray = rays.through(x + 0.5, y + 0.5);
     return scene::insideCone(light, camera.eye + depthOf(triangle, ray) * ray);
   };
-  auto done = raster::forEach((camera.height + kBand - 1) / kBand, [&](int band) {
+  auto done = parallel::forEach((camera.height + kBand - 1) / kBand, [&](int band) {
     raster::forEachRowPiece(seen_.triangle.columns, camera.width, camera.height, band,
                             [&](std::size_t block, std::size_t first, int x, int y, int count) {
                               const std::uint32_t* triangle = seen_.triangle.blocks[block].pixel.data() + first;

@@ -57,7 +57,7 @@ bool FacingPoints::place(const Seen8& seen, int x, int y, Faces& faces, trace::S
   return points.active != 0;
 }
 
-UMBRAGE_LANES void FacingPoints::lookAt(Faces& faces) const {
+UMBRAGE_VECTOR_UNITS void FacingPoints::lookAt(Faces& faces) const {
   alignas(64) trace::Lanes offset;
   const std::size_t none = planes_.size() - 1;
   for (std::size_t k = 0; k < 8; ++k) {
@@ -81,7 +81,7 @@ UMBRAGE_LANES void FacingPoints::lookAt(Faces& faces) const {
 
 // visibleSideFacesLight, told by the planes wherever they leave no doubt: it costs a fraction, and differs nowhere, since it
 // decides only heights of more than kSurely of the lengths they are computed from.
-UMBRAGE_LANES std::uint32_t FacingPoints::litLanes(const Faces& faces) const {
+UMBRAGE_VECTOR_UNITS std::uint32_t FacingPoints::litLanes(const Faces& faces) const {
   const double sureOfEye = sureOfEye_, sureOfLight = sureOfLight_;
   const std::uint32_t sure = trace::lanesWhere(
       [&](std::size_t k) { return faces.eyeHeight[k] > sureOfEye && std::abs(faces.lightHeight[k]) > sureOfLight; });
@@ -103,7 +103,7 @@ std::uint32_t FacingPoints::exactlyLit(const Faces& faces, std::uint32_t lanes) 
 }
 
 // The points that the pixels' centres show, in double precision.
-UMBRAGE_LANES void FacingPoints::placePoints(const Seen8& seen, const Faces& faces, int x, int y,
+UMBRAGE_VECTOR_UNITS void FacingPoints::placePoints(const Seen8& seen, const Faces& faces, int x, int y,
                                              trace::SurfacePoints8& points) const {
   const Vec3 corner = rays_.through(x + 0.5, y + 0.5), eye = eye_;
   const double precision = precision_;

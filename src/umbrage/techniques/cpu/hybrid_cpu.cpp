@@ -42,7 +42,7 @@ class HybridCpu final : public shadow::Technique {
   Result<shadow::Shading> shade(const shadow::Frame& frame) override {
     UMBRAGE_CHECK(volumes_.has_value(), "shade() before prepare()");
     shadow::Shading out;
-    PhaseClock clock(out.stats.phases);
+    shadow::PhaseClock clock(out.stats.phases);
     const double pixels = double(frame.camera.width) * frame.camera.height;
     const auto triangles = double(geometry_->surfaces.triangles.size());
     const auto tracing = prefersRays(cost::rasterising(triangles, pixels), cost::primaryRays(pixels));
@@ -81,7 +81,7 @@ class HybridCpu final : public shadow::Technique {
   }
 
   Result<shadow::LightMask> traced(const shadow::Frame& frame, const scene::Light& light, shadow::Shading& out,
-                                   const std::string& why, PhaseClock& clock) {
+                                   const std::string& why, shadow::PhaseClock& clock) {
     out.stats.lights.back().method = "ray_traced";
     out.stats.lights.back().reason = "a ray per lit-facing pixel towards the light: " + why;
     auto mask = rays_->mask(frame.camera, light, out.surface);
@@ -90,7 +90,7 @@ class HybridCpu final : public shadow::Technique {
   }
 
   Result<shadow::LightMask> cheaper(const shadow::Frame& frame, const scene::Light& light, shadow::Shading& out,
-                                    PhaseClock& clock) {
+                                    shadow::PhaseClock& clock) {
     if (auto done = volumes_->look(light, frame.silhouettes, clock); !done) return tl::unexpected(done.error());
     const double pixels = double(frame.camera.width) * frame.camera.height;
     const double rays = cost::shadowRays(double(volumes_->receiverCount()), pixels);

@@ -1,6 +1,6 @@
 #include <optional>
 
-#include "umbrage/techniques/cpu/detail/phase_clock.hpp"
+#include "umbrage/shadow/phase_clock.hpp"
 #include "umbrage/techniques/cpu/detail/ray_traced.hpp"
 #include "umbrage/techniques/cpu/detail/rays.hpp"
 #include "umbrage/trace/visible_surfaces.hpp"
@@ -23,7 +23,7 @@ class RayTraced final : public shadow::Technique {
   Result<shadow::Shading> shade(const shadow::Frame& frame) override {
     UMBRAGE_CHECK(rays_.has_value(), "shade() before prepare()");
     shadow::Shading out;
-    PhaseClock clock(out.stats.phases);
+    shadow::PhaseClock clock(out.stats.phases);
     auto seen = trace::visibleSurfaces(rays_->occlusion(), frame.camera);
     if (!seen) return tl::unexpected(seen.error());
     out.surface = std::move(*seen);

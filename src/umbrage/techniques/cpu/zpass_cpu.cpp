@@ -20,7 +20,7 @@ class ZPassCpu final : public shadow::Technique {
   Result<shadow::Shading> shade(const shadow::Frame& frame) override {
     UMBRAGE_CHECK(volumes_.has_value(), "shade() before prepare()");
     shadow::Shading out;
-    PhaseClock clock(out.stats.phases);
+    shadow::PhaseClock clock(out.stats.phases);
     if (auto done = volumes_->see(frame.camera); !done) return tl::unexpected(done.error());
     auto surface = volumes_->surface();
     if (!surface) return tl::unexpected(surface.error());

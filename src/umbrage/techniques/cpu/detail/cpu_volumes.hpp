@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "umbrage/raster/shadow_count.hpp"
-#include "umbrage/techniques/cpu/detail/phase_clock.hpp"
+#include "umbrage/shadow/phase_clock.hpp"
 
 namespace umbrage::techniques::detail {
 
@@ -21,14 +21,14 @@ class CpuVolumes {
   [[nodiscard]] Result<shadow::SurfaceBuffer> surface() const { return raster::surfaceBuffer(space_, seen_); }
 
   /// The first step of mask(): which pixels face a light, and the silhouette.
-  [[nodiscard]] Result<void> look(const scene::Light& light, shadow::FinderKind finder, PhaseClock& clock);
+  [[nodiscard]] Result<void> look(const scene::Light& light, shadow::FinderKind finder, shadow::PhaseClock& clock);
   [[nodiscard]] std::size_t receiverCount() const;  ///< pixels that face the light
   [[nodiscard]] std::size_t silhouetteSize() const { return silhouette_.edges.size(); }
   /// The second: the sides that may change a pixel; returns how many pieces there are to fill.
-  [[nodiscard]] Result<std::size_t> plan(PhaseClock& clock);
+  [[nodiscard]] Result<std::size_t> plan(shadow::PhaseClock& clock);
   /// REQUIRES: see(), look() and plan() for the same camera and light.
   [[nodiscard]] Result<shadow::LightMask> mask(const scene::Camera& camera, const scene::Light& light,
-                                               PhaseClock& clock);
+                                               shadow::PhaseClock& clock);
   /// Of the light last looked at.
   [[nodiscard]] shadow::LightStats stats(bool detailed) const;
 

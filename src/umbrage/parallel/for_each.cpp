@@ -1,4 +1,4 @@
-#include "umbrage/raster/workers.hpp"
+#include "umbrage/parallel/for_each.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace umbrage::raster {
+namespace umbrage::parallel {
 namespace {
 
 #ifdef __SANITIZE_THREAD__
@@ -41,9 +41,9 @@ Result<void> forEach(int count, const std::function<void(int)>& work) {
   try {
     inThreads(count, work);
   } catch (const std::exception& e) {
-    return fail(ErrorCode::device, std::string("rasterising in threads failed: ") + e.what());
+    return fail(ErrorCode::device, std::string("work in threads failed: ") + e.what());
   }
   return {};
 }
 
-}  // namespace umbrage::raster
+}  // namespace umbrage::parallel
