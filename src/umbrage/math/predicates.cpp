@@ -6,11 +6,20 @@
 namespace umbrage {
 namespace {
 
-double distanceToEdge(const Vec3& point, const Vec3& a, const Vec3& b) {
+Vec3 nearestOnEdge(const Vec3& point, const Vec3& a, const Vec3& b) {
   const Vec3 along = b - a;
   const double square = glm::dot(along, along);
   const double s = square > 0.0 ? std::clamp(glm::dot(point - a, along) / square, 0.0, 1.0) : 0.0;
-  return glm::length(a + s * along - point);
+  return a + s * along;
+}
+
+double distanceToEdge(const Vec3& point, const Vec3& a, const Vec3& b) {
+  return glm::length(nearestOnEdge(point, a, b) - point);
+}
+
+bool isOver(const Vec3& foot, const Vec3& normal, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return glm::dot(glm::cross(b - a, foot - a), normal) >= 0.0 && glm::dot(glm::cross(c - b, foot - b), normal) >= 0.0 &&
+         glm::dot(glm::cross(a - c, foot - c), normal) >= 0.0;
 }
 
 }  // namespace
@@ -42,12 +51,22 @@ double distanceToTriangle(const Vec3& point, const Vec3& a, const Vec3& b, const
   if (length > 0.0) {
     const double height = glm::dot(point - a, normal / length);
     const Vec3 foot = point - height * (normal / length);
-    const bool inside = glm::dot(glm::cross(b - a, foot - a), normal) >= 0.0 &&
-                        glm::dot(glm::cross(c - b, foot - b), normal) >= 0.0 &&
-                        glm::dot(glm::cross(a - c, foot - c), normal) >= 0.0;
-    if (inside) return std::abs(height);
+    if (isOver(foot, normal, a, b, c)) return std::abs(height);
   }
   return std::min({distanceToEdge(point, a, b), distanceToEdge(point, b, c), distanceToEdge(point, c, a)});
+}
+
+Vec3 nearestOnTriangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 normal = glm::cross(b - a, c - a);
+  const double square = glm::dot(normal, normal);
+  if (square > 0.0) {
+    const Vec3 foot = point - (glm::dot(point - a, normal) / square) * normal;
+    if (isOver(foot, normal, a, b, c)) return foot;
+  }
+  Vec3 best = nearestOnEdge(point, a, b);
+  for (const Vec3& other : {nearestOnEdge(point, b, c), nearestOnEdge(point, c, a)})
+    if (glm::distance(other, point) < glm::distance(best, point)) best = other;
+  return best;
 }
 
 }  // namespace umbrage

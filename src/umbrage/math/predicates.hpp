@@ -21,4 +21,7 @@ namespace umbrage {
 /// Distance from a point to a triangle, filled. A triangle without area is its edges.
 [[nodiscard]] double distanceToTriangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c);
 
+/// The point of a triangle, filled, that is nearest to `point`; one of them where there are several.
+[[nodiscard]] Vec3 nearestOnTriangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c);
+
 }  // namespace umbrage
