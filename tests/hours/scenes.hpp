@@ -95,13 +95,29 @@ inline mesh::Mesh terrain(int across, double cell) {
   return m;
 }
 
+/// A closed ring, smooth: a tube of radius `tube` bent to one of radius `ring`, standing at a slant `high` above the ground.
+inline mesh::Mesh ring(double ring, double tube, double high, std::uint32_t columns, std::uint32_t rows) {
+  mesh::Mesh m;
+  const Vec3 x(1, 0, 0), y(0, 0.6, 0.8), up(0, -0.8, 0.6);
+  for (std::uint32_t i = 0; i < columns; ++i)
+    for (std::uint32_t k = 0; k < rows; ++k) {
+      const double a = 2 * 3.14159265358979 * i / columns, b = 2 * 3.14159265358979 * k / rows;
+      const Vec3 out = std::cos(a) * x + std::sin(a) * y;
+      m.positions.push_back(Vec3(0, 0, high) + (ring + tube * std::cos(b)) * out + tube * std::sin(b) * up);
+      const std::uint32_t here = i * rows, beside = (i + 1) % columns * rows, above = (k + 1) % rows;
+      m.triangles.push_back({here + k, beside + k, beside + above});
+      m.triangles.push_back({here + k, beside + above, here + above});
+    }
+  return m;
+}
+
 struct NamedScene {
   std::string name;
   scene::Scene scene;
 };
 
-/// Closed, open, soup, terrain and city.
-inline std::vector<NamedScene> fiveScenes(int cityAcross) {
+/// Closed, open, soup, terrain, city and a smooth solid.
+inline std::vector<NamedScene> sceneKinds(int cityAcross) {
   Random random(7);
   std::vector<NamedScene> all;
   all.push_back({"closed", sceneOf(boxes(5, 22, random))});
@@ -109,6 +125,7 @@ inline std::vector<NamedScene> fiveScenes(int cityAcross) {
   all.push_back({"soup", sceneOf(soup(400, random))});
   all.push_back({"terrain", sceneOf(terrain(40, 5))});
   all.push_back({"city", sceneOf(boxes(cityAcross, 20, random))});
+  all.push_back({"smooth", sceneOf(ring(20, 6, 25, 120, 40))});
   return all;
 }
 

@@ -85,20 +85,21 @@ struct Room {
 };
 
 struct Rooms {
-  std::array<Room, detail::kGroup> rooms;
+  std::array<Room, detail::kGroup> rooms, probes;
 };
 // The traversal knows plain data only, so a coverage finds its room by its own thread.
 thread_local Rooms* roomsOfThread = nullptr;
 
 void growCoverage(Coverage& c) {
-  for (Room& room : roomsOfThread->rooms) {
-    if (room.from.data() != c.from) continue;
-    c.capacity *= 2;
-    room.from.resize(static_cast<std::size_t>(c.capacity + kSpare), detail::kNever);
-    room.to.resize(static_cast<std::size_t>(c.capacity + kSpare), detail::kNever);
-    c.from = room.from.data(), c.to = room.to.data();
-    return;
-  }
+  for (auto* rooms : {&roomsOfThread->rooms, &roomsOfThread->probes})
+    for (Room& room : *rooms) {
+      if (room.from.data() != c.from) continue;
+      c.capacity *= 2;
+      room.from.resize(static_cast<std::size_t>(c.capacity + kSpare), detail::kNever);
+      room.to.resize(static_cast<std::size_t>(c.capacity + kSpare), detail::kNever);
+      c.from = room.from.data(), c.to = room.to.data();
+      return;
+    }
 }
 
 Coverage emptyCoverage(Room& room, const SunLeg& leg) {
@@ -241,33 +242,45 @@ class Worker {
     const Vec3 half = 0.5 * (high - low) + Vec3(margin);
     const detail::SkyFrame& f = hours_.frame;
     const Vec3 turning = f.turning(middle.x * f.east + middle.y * f.north + middle.z * f.up);
-    const Vec3 normal = f.turning(normals_[0]), slab = glm::abs(f.horizontal(normals_[0]));
-    for (int k = 0; k < 3; ++k) {
-      job.middle[k] = float(turning[k]), job.extent[k] = float(half[k]);
-      job.normal[k] = float(normal[k]), job.slab[k] = float(slab[k]) * 1.000001f;
-    }
+    for (int k = 0; k < 3; ++k) job.middle[k] = float(turning[k]), job.extent[k] = float(half[k]);
+    face(job);
     within_.clear();
     hours_.boxes.find(box_.min - Vec3(2.0 * hours_.contact), box_.max + Vec3(2.0 * hours_.contact), within_);
     std::erase_if(within_, [&](std::int32_t solid) { return allOutside(solid, job.count); });
     job.within = within_.data(), job.withinCount = static_cast<std::int32_t>(within_.size());
     job.nodes = hours_.tree.nodes.data(), job.leaves = hours_.tree.leaves.data(), job.quads = hours_.tree.quads.data();
     job.root = hours_.tree.root;
+    job.ballNodes = hours_.tree.ballNodes.empty() ? nullptr : hours_.tree.ballNodes.data();
+    job.balls = hours_.tree.balls.data(), job.ballRoot = hours_.tree.ballRoot;
     job.sinLatitude = float(f.sinLatitude), job.cosLatitude = float(f.cosLatitude);
     job.contact = float(hours_.contact);
     job.grow = growCoverage, job.refine = refineEdges, job.touch = touchQuad;
   }
 
-  // Whether one side of a convex solid has all the group's points before it, or on it and facing as it does.
+  // The ways the points face, for leaving out what is behind all of them.
+  void face(CoverJob& job) const {
+    for (int i = 0; i < job.count; ++i) {
+      const Vec3& n = normals_[static_cast<std::size_t>(i)];
+      const Vec3 normal = hours_.frame.turning(n), slab = glm::abs(hours_.frame.horizontal(n)) * 1.000001;
+      for (int k = 0; k < 3; ++k) job.facing[k][i] = float(normal[k]), job.facing[3 + k][i] = float(slab[k]);
+      job.spread = std::max(job.spread, float(1.000001 * glm::distance(n, normals_[0])));
+    }
+    for (int k = 0; k < 6; ++k) job.normal[k] = job.facing[k][0];
+  }
+
+  // Whether each of the group's points has a side of a convex solid before it, or touches one that faces as it does.
   [[nodiscard]] bool allOutside(std::int32_t solid, std::int32_t count) const {
     const auto& sides = hours_.solids[static_cast<std::size_t>(solid)].sides;
-    return std::any_of(sides.begin(), sides.end(), [&](const detail::Casters::Plane& side) {
-      for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    const auto outside = [&](std::size_t i) {
+      return std::any_of(sides.begin(), sides.end(), [&](const detail::Casters::Plane& side) {
         const double before = glm::dot(positions_[i] - side.point, side.normal);
-        if (before > hours_.contact) continue;
-        if (before < -hours_.contact || glm::dot(side.normal, normals_[i]) < 1.0 - 1e-9) return false;
-      }
-      return true;
-    });
+        return before > hours_.contact ||
+               (before >= -hours_.contact && glm::dot(side.normal, normals_[i]) >= 1.0 - 1e-9);
+      });
+    };
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+      if (!outside(i)) return false;
+    return true;
   }
 
   // The hours in which the sun is behind a receiver's own plane.
@@ -295,9 +308,21 @@ class Worker {
     GroupContext context{hours_, leg, positions_.data(), normals_.data()};
     job.rise = float(leg.whole.rise), job.cosine = float(leg.whole.cosine), job.sine = float(leg.whole.sine);
     job.error = float(leg.wholeError);
+    job.longest = float(std::hypot(1.0, std::abs(leg.middleHeight) + 0.5 * leg.heightRange) * (1.0 + 1e-6));
     job.first = float(leg.first), job.last = float(leg.last);
     job.arcs = ready.arcs.data(), job.arcCount = static_cast<std::int32_t>(ready.arcs.size());
     job.context = &context;
+    // Who is outside is hidden by the faces towards him alone. Few are inside, so all are taken to be outside first.
+    job.inside = false;
+    traverse(job, leg);
+    if (job.withinCount > 0 && anyInside(job, leg)) {
+      job.inside = true;
+      traverse(job, leg);
+    }
+    for (int i = 0; i < job.count; ++i) addGaps(leg, job.covered[i], lit[static_cast<std::size_t>(i)]);
+  }
+
+  void traverse(CoverJob& job, const SunLeg& leg) {
     Coverage start{};
     for (int i = 0; i < job.count; ++i) {
       const auto k = static_cast<std::size_t>(i);
@@ -308,8 +333,49 @@ class Worker {
         coverBehind(leg, normals_[k], job.covered[i]);
       if (i == 0) start = job.covered[0];
     }
+    cover(job);
+  }
+
+  void cover(CoverJob& job) const {
     if (!hours_.tree.nodes.empty()) wide_ ? detail::coverWide(job) : detail::coverPlain(job);
-    for (int i = 0; i < job.count; ++i) addGaps(leg, job.covered[i], lit[static_cast<std::size_t>(i)]);
+  }
+
+  // Whether a point may lie inside a closed solid, after a traversal that took all to be outside: then the sun in the middle of what it
+  // left lit meets an averted face. From outside it meets none, since it would meet a face towards the point before.
+  bool anyInside(const CoverJob& job, const SunLeg& leg) {
+    constexpr float kHalf = 1e-4f, kLeast = 4e-5f;  // of what is probed, and the least stretch that can be; 0.9 s
+    CoverJob probe = job;
+    probe.inside = true;
+    std::uint32_t open = 0;
+    for (int i = 0; i < job.count; ++i) {
+      const auto [from, to] = longestGap(job.covered[i], float(leg.first), float(leg.last));
+      if (from < to && to - from < kLeast) return true;
+      const float middle = 0.5f * (from + to), half = std::min(kHalf, 0.25f * (to - from));
+      probe.covered[i] = emptyCoverage(rooms_.probes[static_cast<std::size_t>(i)], leg);
+      if (from < to) {
+        open |= 1u << i;
+        detail::addPlain(probe.covered[i], float(leg.first), middle - half, growCoverage);
+        detail::addPlain(probe.covered[i], middle + half, float(leg.last), growCoverage);
+      } else {
+        detail::addPlain(probe.covered[i], float(leg.first), float(leg.last), growCoverage);
+      }
+    }
+    if (open == 0) return false;
+    cover(probe);
+    for (int i = 0; i < job.count; ++i)
+      if ((open >> i & 1u) != 0 && probe.covered[i].count == 1) return true;
+    return false;
+  }
+
+  static std::pair<float, float> longestGap(const Coverage& covered, float first, float last) {
+    std::pair<float, float> longest{first, first};
+    float from = first;
+    for (std::int32_t i = 0; i <= covered.count; ++i) {
+      const float to = i == covered.count ? last : std::min(covered.from[i], last);
+      if (to - from > longest.second - longest.first) longest = {from, to};
+      if (i < covered.count) from = std::max(from, covered.to[i]);
+    }
+    return longest;
   }
 
   void addGaps(const SunLeg& leg, const Coverage& covered, std::vector<TimeSpan>& lit) const {

@@ -58,7 +58,7 @@ TEST(ExactHours, courtyard) {
 
 TEST(ExactHours, agreesWithARayEverySecond) {
   unsigned seed = 1;
-  for (const auto& named : hours_tests::fiveScenes(6)) {
+  for (const auto& named : hours_tests::sceneKinds(6)) {
     const hours_tests::Rays rays(named.scene);
     hours_tests::Random random(seed++);
     const auto all = hours_tests::placed(rays, 10, random);
@@ -78,7 +78,7 @@ void expectSame(const SunHours& a, const SunHours& b, double tolerance) {
 
 TEST(ExactHours, sameWithAndWithoutWideLanesAndInAnyNumberOfThreads) {
   hours_tests::Random random(5);
-  for (const auto& named : hours_tests::fiveScenes(6)) {
+  for (const auto& named : hours_tests::sceneKinds(6)) {
     const hours_tests::Rays rays(named.scene);
     std::vector<Receiver> receivers;
     for (const auto& p : hours_tests::placed(rays, 2000, random)) receivers.push_back(p.receiver);
@@ -89,6 +89,78 @@ TEST(ExactHours, sameWithAndWithoutWideLanesAndInAnyNumberOfThreads) {
     for (std::size_t i = 0; i < receivers.size(); ++i)
       EXPECT_TRUE(std::ranges::equal(wide.lit(i), threads.lit(i))) << named.name << ' ' << i;
   }
+}
+
+TEST(ExactHours, centimetresFromACornerFarFromTheOrigin) {
+  // Half a unit in the last place of a coordinate is 0.03 mm here: seen from a centimetre's distance the sun takes 40 s for that.
+  mesh::Mesh m;
+  hours_tests::addBox(m, {0, 0}, {3, 5}, 0.28, -0.5, 12);
+  hours_tests::addBox(m, {-1960, 1840}, {4, 4}, 0.1, -0.5, 12);  // so that the origin is far from both
+  const scene::Scene two = sceneOf(std::move(m));
+  const hours_tests::Rays rays(two);
+  hours_tests::Random random(17);
+  std::vector<hours_tests::Placed> all;
+  std::vector<Receiver> receivers;
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 corner = two.meshes[0]->positions[static_cast<std::size_t>(i % 4)];
+    hours_tests::Placed p;
+    p.receiver.position = {corner.x + hours_tests::uniform(random, -0.03, 0.03),
+                           corner.y + hours_tests::uniform(random, -0.03, 0.03), 0.01};
+    p.receiver.normal = {0, 0, 1};
+    if (rays.meets(p.receiver.position, {0, 0, 1}, 0xffffffffu)) continue;
+    all.push_back(p), receivers.push_back(p.receiver);
+  }
+  for (const bool wide : {true, false}) {
+    const SunCourse course = dayOf(2026y / std::chrono::July / 22);
+    const SunHours lit = hoursAt(two, receivers, course, {.wide = wide});
+    for (std::size_t i = 0; i < all.size(); ++i)
+      EXPECT_EQ(hours_tests::disagreements(rays, all[i], lit.lit(i), course), 0) << wide << ' ' << i;
+  }
+}
+
+// An L, two arms of 10 m by 30 m, 12 m high; closed, and not convex.
+mesh::Mesh angle() {
+  mesh::Mesh m;
+  const Vec2 outline[] = {{0, 0}, {30, 0}, {30, 10}, {10, 10}, {10, 30}, {0, 30}};
+  for (const double z : {0.0, 12.0})
+    for (const Vec2& c : outline) m.positions.push_back({c.x, c.y, z});
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    const std::uint32_t k = (i + 1) % 6;
+    m.triangles.push_back({i, k, k + 6});
+    m.triangles.push_back({i, k + 6, i + 6});
+  }
+  const mesh::Triangle floor[] = {{0, 3, 1}, {1, 3, 2}, {0, 5, 3}, {3, 5, 4}};
+  for (const mesh::Triangle& t : floor) {
+    m.triangles.push_back(t);
+    m.triangles.push_back({t[0] + 6, t[2] + 6, t[1] + 6});
+  }
+  return m;
+}
+
+TEST(ExactHours, insideAndOutsideOfASolidThatIsNotConvex) {
+  const scene::Scene s = sceneOf(angle());
+  const hours_tests::Rays rays(s);
+  hours_tests::Random random(19);
+  const SunCourse course = dayOf(2026y / std::chrono::June / 21);
+  std::vector<hours_tests::Placed> all;
+  std::vector<Receiver> receivers;
+  for (int i = 0; i < 60; ++i) {
+    hours_tests::Placed p;
+    p.receiver.position = {hours_tests::uniform(random, 0.5, 29.5), hours_tests::uniform(random, 0.5, 29.5), 0.5};
+    if (i % 2 == 0) p.receiver.normal = {0, 0, 1};
+    all.push_back(p), receivers.push_back(p.receiver);
+  }
+  const SunHours lit = hoursAt(s, receivers, course);
+  int inside = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Vec3& p = receivers[i].position;
+    EXPECT_EQ(hours_tests::disagreements(rays, all[i], lit.lit(i), course), 0) << i;
+    if (p.x > 10 && p.y > 10) continue;
+    ++inside;
+    EXPECT_EQ(lit.total(i), 0ms) << i;
+  }
+  EXPECT_GT(inside, 10);
+  EXPECT_LT(inside, 50);
 }
 
 TEST(ExactHours, manyStretchesAreAllKept) {

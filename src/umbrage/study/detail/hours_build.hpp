@@ -27,6 +27,9 @@ struct HoursTree {
   std::vector<TreeLeaf> leaves;
   std::vector<TreeQuad> quads;
   std::int32_t root = 0;
+  std::vector<TreeNode> ballNodes;  ///< of balls within the casters; empty where there are none
+  std::vector<TreeBalls> balls;
+  std::int32_t ballRoot = 0;
   double reach = 0.0;     ///< the largest coordinate
   double leafSize = 0.0;  ///< the longest side of the box of a leaf, in the median
 };

@@ -15,6 +15,17 @@ inline bool isCovered(const Coverage& c, float from, float to) {
   return found != 0;
 }
 
+// What is covered at the beginning and at the end of a stretch is cut off.
+inline void cutCovered(const Coverage& c, float& from, float& to) {
+  const Lanes x(from), y(to);
+  for (int i = 0; i < c.count; i += 8) {
+    const Lanes a = load(c.from + i), b = load(c.to + i);
+    const std::uint32_t atBegin = bits((a <= x) & (b > x)), atEnd = bits((a < y) & (b >= y));
+    if (atBegin != 0) from = c.to[i + lowestBit(atBegin)];
+    if (atEnd != 0) to = c.from[i + lowestBit(atEnd)];
+  }
+}
+
 inline bool isFull(const Coverage& c, float first, float last) {
   return c.count == 1 && c.from[0] <= first + 1e-6f && c.to[0] >= last - 1e-6f;
 }
@@ -128,13 +139,11 @@ inline void solve(const CoverJob& job, const Task& task, Answer& answer) {
   const Lanes side = halves(task.sideA, task.sideB);
   const Three corner{seen(p.x, q.x, 0), seen(p.y, q.y, 1), seen(p.z, q.z, 2)};
   const Three next{following(corner.x), following(corner.y), following(corner.z)};
-  // (a + b) x (b - a): with the ends exchanged it is the same with the other sign, bit by bit, so that neighbours share a
-  // moment.
-  const Three sum{corner.x + next.x, corner.y + next.y, corner.z + next.z};
-  const Three edge{next.x - corner.x, next.y - corner.y, next.z - corner.z};
-  const Three plane{flipped(fms(sum.y, edge.z, sum.z * edge.y), side),
-                    flipped(fms(sum.z, edge.x, sum.x * edge.z), side),
-                    flipped(fms(sum.x, edge.y, sum.y * edge.x), side)};
+  // With the ends exchanged it is the same with the other sign, bit by bit, so that neighbours share a moment. Of an edge that points
+  // to the eye both products are far larger than their difference, hence the care.
+  const Three plane{flipped(difference(corner.y, next.z, corner.z, next.y), side),
+                    flipped(difference(corner.z, next.x, corner.x, next.z), side),
+                    flipped(difference(corner.x, next.y, corner.y, next.x), side)};
   const Lanes al = dot(plane, task.arc->rise), be = dot(plane, task.arc->cosine), ga = dot(plane, task.arc->sine);
   const Lanes zero(0.0f), first(task.from), last(task.to);
   const Lanes d2 = fnma(al, al, fma(be, be, ga * ga));
@@ -215,8 +224,17 @@ inline std::uint32_t lanesWithin(const CoverJob& job, const TreeLeaf& leaf) {
   return lanes;
 }
 
+// Of a leaf's lanes: which are asked from both sides, and which a point may touch.
+struct Sides {
+  std::uint32_t both, touchable;
+};
+inline Sides sidesOf(const CoverJob& job, const TreeLeaf& leaf) {
+  const std::uint32_t around = job.withinCount > 0 ? lanesWithin(job, leaf) : 0u;
+  return {leaf.open | (job.inside ? around : 0u), leaf.open | around};
+}
+
 // The quads of a leaf that may hide the sun from a point within some hours become tasks.
-inline void askLeaf(CoverJob& job, const TreeLeaf& leaf, std::uint32_t bothSides, std::uint32_t k, float from, float to,
+inline void askLeaf(CoverJob& job, const TreeLeaf& leaf, const Sides& sides, std::uint32_t k, float from, float to,
                     const ArcDirections* arc, Tasks& tasks) {
   const GroupPoint& point = job.points[k];
   const auto seen = [&](const float* u, int axis) {
@@ -225,9 +243,8 @@ inline void askLeaf(CoverJob& job, const TreeLeaf& leaf, std::uint32_t bothSides
   const Lanes nx = load(leaf.nx), ny = load(leaf.ny), nz = load(leaf.nz);
   const Lanes depth = fma(seen(leaf.x, 0), nx, fma(seen(leaf.y, 1), ny, seen(leaf.z, 2) * nz));
   const std::uint32_t front = bits(depth < Lanes(0.0f));
-  std::uint32_t left = ((front & ~leaf.flatUp) | bothSides) & leaf.used;
-  // Only what is open, or a solid around the group, can be touched.
-  std::uint32_t near = bothSides == 0 ? 0u : bits(magnitude(depth) <= Lanes(job.contact)) & leaf.used;
+  std::uint32_t left = ((front & ~leaf.flatUp) | sides.both) & leaf.used;
+  std::uint32_t near = sides.touchable == 0 ? 0u : bits(magnitude(depth) <= Lanes(job.contact)) & leaf.used;
   for (; near != 0; near &= near - 1) {
     const int i = lowestBit(near);
     if (job.touch(job.context, point.index, leaf.quads + static_cast<std::uint32_t>(i), job.covered[k]))
@@ -293,7 +310,7 @@ struct NodeConstants {
   float sign, slope;          // of `rise`: its sign and magnitude
   float turnFirst, turnWest;  // sign * cosine, sign * sine
   float sinAbs, cosAbs;
-  bool facing;
+  bool facing;     // no point faces all ways
   float steepest;  // of the cone
   float radius;    // of the group, seen along the axis
   float scale;     // bins per unit
@@ -306,7 +323,7 @@ inline NodeConstants constantsOf(const CoverJob& job) {
   k.turnFirst = k.sign * job.cosine, k.turnWest = k.sign * job.sine;
   k.sinAbs = __builtin_fabsf(job.sinLatitude), k.cosAbs = __builtin_fabsf(job.cosLatitude);
   k.steepest = k.slope + __builtin_fabsf(job.cosine) + __builtin_fabsf(job.sine);
-  k.facing = job.slab[0] + job.slab[1] + job.slab[2] > 0.0f;
+  k.facing = job.normal[3] + job.normal[4] + job.normal[5] > 0.0f;
   const float tall = k.sinAbs * job.extent[1] + k.cosAbs * job.extent[2];
   k.radius = __builtin_sqrtf(tall * tall + job.extent[0] * job.extent[0]);
   k.scale = 64.0f / (job.last - job.first);
@@ -319,9 +336,15 @@ struct Look {
   Lanes from, to;
 };
 
-// `first`, `west`, `south`: the boxes' middles from the eyes; the rest their extents.
-[[gnu::always_inline]] inline Look look(const CoverJob& job, const NodeConstants& k, Lanes first, Lanes west,
-                                        Lanes south, Lanes ex, Lanes ey, Lanes ez, Lanes flat) {
+// The ways that eyes face: a vector, and its absolute values.
+struct Facing {
+  Lanes first, west, south, east, north, up;
+};
+
+// `first`, `west`, `south`: the boxes' middles from the eyes; then their extents.
+[[gnu::always_inline]] inline Look look(const CoverJob& job, const NodeConstants& k, const Facing& facing, float apart,
+                                        Lanes first, Lanes west, Lanes south, Lanes ex, Lanes ey, Lanes ez,
+                                        Lanes flat) {
   const Lanes zero(0.0f);
   const Lanes sinA(k.sinAbs), cosA(k.cosAbs), slope(k.slope);
   const Lanes w2 = fma(first, first, fma(west, west, Lanes(1e-12f)));
@@ -343,8 +366,9 @@ struct Look {
   // Above the horizon, and before the plane that the points face from.
   ok = ok & (fma(first, cl, fnma(south, sl, ez)) > zero);
   if (k.facing) {
-    const Lanes ahead = fma(first, Lanes(job.normal[0]), fma(west, Lanes(job.normal[1]), south * Lanes(job.normal[2])));
-    ok = ok & (fma(ex, Lanes(job.slab[0]), fma(ey, Lanes(job.slab[1]), fma(ez, Lanes(job.slab[2]), ahead))) > zero);
+    Lanes ahead = fma(first, facing.first, fma(west, facing.west, south * facing.south));
+    if (apart > 0.0f) ahead = fma((w + magnitude(south)) + (ex + ey) + ez, Lanes(apart), ahead);
+    ok = ok & (fma(ex, facing.east, fma(ey, facing.north, fma(ez, facing.up, ahead))) > zero);
   }
   Look out{bits(ok), zero, zero};
   if (out.left == 0) return out;
@@ -382,13 +406,16 @@ struct Look {
 
 // Puts the children that may hide the sun at hours not yet covered onto the stack, the nearest on top. Returns the new
 // top.
-inline int openNode(const CoverJob& job, const NodeConstants& k, const TreeNode& node, std::uint64_t covered,
-                    Entry* stack, int top) {
+template <class Leaf>
+inline int openNode(const CoverJob& job, const NodeConstants& k, const TreeNode* nodes, const Leaf* leaves,
+                    const TreeNode& node, std::uint64_t covered, Entry* stack, int top) {
   const Lanes first = load(node.first) - Lanes(job.middle[0]), west = load(node.west) - Lanes(job.middle[1]),
               south = load(node.south) - Lanes(job.middle[2]);
-  const Look seen =
-      look(job, k, first, west, south, load(node.east) + Lanes(job.extent[0]), load(node.north) + Lanes(job.extent[1]),
-           load(node.up) + Lanes(job.extent[2]), load(node.flat) + Lanes(k.radius));
+  const float* n = job.normal;
+  const Facing facing{Lanes(n[0]), Lanes(n[1]), Lanes(n[2]), Lanes(n[3]), Lanes(n[4]), Lanes(n[5])};
+  const Look seen = look(job, k, facing, job.spread, first, west, south, load(node.east) + Lanes(job.extent[0]),
+                         load(node.north) + Lanes(job.extent[1]), load(node.up) + Lanes(job.extent[2]),
+                         load(node.flat) + Lanes(k.radius));
   std::uint32_t left = seen.left;
   if (left == 0) return top;
   const Lanes scale(k.scale), begin(job.first);
@@ -401,9 +428,9 @@ inline int openNode(const CoverJob& job, const NodeConstants& k, const TreeNode&
   for (; left != 0; left &= left - 1) {
     const int i = lowestBit(left);
     const Entry entry{node.child[i], a[i], b[i], distance[i]};
-    const char* ahead = entry.child < 0 ? reinterpret_cast<const char*>(job.leaves + ~entry.child)
-                                        : reinterpret_cast<const char*>(job.nodes + entry.child);
-    for (int line = 0; line < 4; ++line) __builtin_prefetch(ahead + 64 * line);
+    const char* ahead = entry.child < 0 ? reinterpret_cast<const char*>(leaves + ~entry.child)
+                                        : reinterpret_cast<const char*>(nodes + entry.child);
+    for (int line = 0; line < int(sizeof(Leaf) < 256 ? 2 : 4); ++line) __builtin_prefetch(ahead + 64 * line);
     int at = top++;
     for (; at > bottom && stack[at - 1].distance < entry.distance; --at) stack[at] = stack[at - 1];
     stack[at] = entry;
@@ -411,47 +438,84 @@ inline int openNode(const CoverJob& job, const NodeConstants& k, const TreeNode&
   return top;
 }
 
+inline std::uint32_t notFull(const CoverJob& job, std::uint32_t of) {
+  std::uint32_t live = 0;
+  for (; of != 0; of &= of - 1) {
+    const int k = lowestBit(of);
+    if (!isFull(job.covered[k], job.first, job.last)) live |= 1u << k;
+  }
+  return live;
+}
+
 // The group's points, each seen alone: a leaf that one of them must open is of no use to most others.
 inline Look lookFromEach(const CoverJob& job, const NodeConstants& k, const TreeLeaf& leaf) {
-  return look(job, k, Lanes(leaf.first) - load(job.eyeFirst), Lanes(leaf.west) - load(job.eyeWest),
+  const auto& n = job.facing;
+  const Facing facing{load(n[0]), load(n[1]), load(n[2]), load(n[3]), load(n[4]), load(n[5])};
+  return look(job, k, facing, 0.0f, Lanes(leaf.first) - load(job.eyeFirst), Lanes(leaf.west) - load(job.eyeWest),
               Lanes(leaf.south) - load(job.eyeSouth), Lanes(leaf.east + job.margin), Lanes(leaf.north + job.margin),
               Lanes(leaf.up + job.margin), Lanes(leaf.flat + 2.0f * job.margin));
 }
 
-inline void openLeaf(CoverJob& job, const NodeConstants& constants, const Entry& entry, std::uint32_t& live) {
+// Returns which points are left.
+inline std::uint32_t openLeaf(CoverJob& job, const NodeConstants& constants, const Entry& entry, std::uint32_t live) {
   const TreeLeaf& leaf = job.leaves[~entry.child];
   const Look seen = lookFromEach(job, constants, leaf);
   std::uint32_t left = seen.left & live;
-  if (left == 0) return;
-  const std::uint32_t bothSides = leaf.open | (job.withinCount > 0 ? lanesWithin(job, leaf) : 0u);
+  if (left == 0) return live;
+  const Sides sides = sidesOf(job, leaf);
   alignas(32) float begin[8], end[8];
   store(begin, seen.from), store(end, seen.to);
   Tasks tasks;
   const std::uint32_t asked = left;
   for (; left != 0; left &= left - 1) {
     const int k = lowestBit(left);
-    if (isCovered(job.covered[k], begin[k], end[k])) continue;
+    cutCovered(job.covered[k], begin[k], end[k]);
     for (float from = begin[k]; from < end[k];) {
       const Arc arc = arcFrom(job, from, end[k]);
-      askLeaf(job, leaf, bothSides, static_cast<std::uint32_t>(k), from, arc.to, arc.directions, tasks);
+      askLeaf(job, leaf, sides, static_cast<std::uint32_t>(k), from, arc.to, arc.directions, tasks);
       from = arc.to;
     }
   }
   finish(job, tasks);
-  for (left = asked; left != 0; left &= left - 1) {
+  return (live & ~asked) | notFull(job, asked);
+}
+
+// When balls hide the sun: where its direction is nearer to a ball's middle than the ball's edge is. Never more than the balls do, whatever the
+// rounding: each sum below is made less by more than its error.
+inline void openBalls(CoverJob& job, const TreeBalls& balls, std::uint32_t live) {
+  const Lanes radius = load(balls.radius), zero(0.0f), small(4e-6f), end(2e-6f);
+  for (std::uint32_t left = live; left != 0; left &= left - 1) {
     const int k = lowestBit(left);
-    if (isFull(job.covered[k], job.first, job.last)) live &= ~(1u << k);
+    const Lanes x = load(balls.first) - Lanes(job.eyeFirst[k]), y = load(balls.west) - Lanes(job.eyeWest[k]),
+                z = load(balls.south) - Lanes(job.eyeSouth[k]);
+    const Lanes tangent2 = fma(x, x, fma(y, y, z * z)) - radius * radius;  // to where lines from the eye touch the ball
+    const Lanes least = root(larger(tangent2, zero)) * Lanes(job.longest);
+    const Lanes size = magnitude(x) + magnitude(y) + magnitude(z) + least;
+    const Lanes al = fms(z, Lanes(job.rise), fma(magnitude(z), Lanes(job.error), fma(size, small, least)));
+    const Lanes be = fma(z, Lanes(job.cosine), x), ga = fma(z, Lanes(job.sine), y);
+    const Lanes d2 = fnma(al, al, fma(be, be, ga * ga));
+    const Lanes d = root(larger(d2, zero)), ab = -al * be, ag = -al * ga;
+    const Lanes from = larger(pseudo(fma(ga, d, ab), fnma(be, d, ag)) + end, Lanes(job.first));
+    const Lanes to = smaller(pseudo(fnma(ga, d, ab), fma(be, d, ag)) - end, Lanes(job.last));
+    std::uint32_t hidden = bits((d2 > zero) & (tangent2 > zero) & (radius > zero) & (from < to));
+    if (hidden == 0) continue;
+    alignas(32) float a[8], b[8];
+    store(a, from), store(b, to);
+    for (; hidden != 0; hidden &= hidden - 1) {
+      const int i = lowestBit(hidden);
+      addCovered(job.covered[k], a[i], b[i], job.grow);
+    }
   }
 }
 
-inline void cover(CoverJob& job) {
-  const NodeConstants constants = constantsOf(job);
+// Through a tree, the nearest first, leaving out what hides the sun only when it is hidden for all points that are live;
+// open(leaf, entry) takes a leaf and returns who is left.
+template <class Leaf, class Open>
+inline std::uint32_t walk(CoverJob& job, const NodeConstants& constants, const TreeNode* nodes, std::int32_t root,
+                          const Leaf* leaves, std::uint32_t live, const Open& openLeaf) {
   Entry stack[512];
   int top = 0, last = 0;
-  stack[top++] = {job.root, job.first, job.last, 0.0f};
-  std::uint32_t live = 0;
-  for (int k = 0; k < job.count; ++k)
-    if (!isFull(job.covered[k], job.first, job.last)) live |= 1u << k;
+  stack[top++] = {root, job.first, job.last, 0.0f};
   std::uint64_t bins = commonBins(job, live);
   while (top > 0 && live != 0) {
     const Entry entry = stack[--top];
@@ -464,10 +528,24 @@ inline void cover(CoverJob& job) {
       if (!open) continue;
     }
     if (entry.child >= 0) {
-      top = openNode(job, constants, job.nodes[entry.child], bins, stack, top);
+      top = openNode(job, constants, nodes, leaves, nodes[entry.child], bins, stack, top);
     } else {
-      openLeaf(job, constants, entry, live);
+      live = openLeaf(entry, live);
       bins = commonBins(job, live);
     }
   }
+  return live;
+}
+
+inline void cover(CoverJob& job) {
+  const NodeConstants constants = constantsOf(job);
+  std::uint32_t live = notFull(job, (1u << job.count) - 1u);
+  if (job.ballNodes != nullptr)
+    live = walk(job, constants, job.ballNodes, job.ballRoot, job.balls, live,
+                [&](const Entry& entry, std::uint32_t alive) {
+                  openBalls(job, job.balls[~entry.child], alive);
+                  return notFull(job, alive);
+                });
+  walk(job, constants, job.nodes, job.root, job.leaves, live,
+       [&](const Entry& entry, std::uint32_t alive) { return openLeaf(job, constants, entry, alive); });
 }

@@ -27,12 +27,27 @@ std::uint64_t zOrder(const Vec3& p, const Vec3& low, double cell) {
 }
 
 // Normals alike to 18 bits count as one: what the corners of one wall's triangles make of it.
-std::uint64_t normalKey(const Vec3& n) {
+constexpr double kFine = 0x1p-18;
+// Those of a smooth surface may be so far apart in one group,
+constexpr double kMostSpread = 0.35;
+// and its points this far off each other's planes, of their distance: walls of different houses are not one surface.
+constexpr double kMostBend = 0.5;
+// Groups of so few points are put together anew, as parts of smooth surfaces.
+constexpr std::uint32_t kFew = 2;
+
+std::uint64_t normalKey(const Vec3& n, double step) {
   std::uint64_t key = 0;
   const double length = glm::length(n);
   if (!(length > 0.0)) return key;
-  for (int k = 0; k < 3; ++k) key = key << 20 | static_cast<std::uint64_t>((n[k] / length + 1.25) * 0x1p18);
+  for (int k = 0; k < 3; ++k) key = key << 20 | static_cast<std::uint64_t>((n[k] / length + 1.25) / step);
   return key;
+}
+
+bool areSmooth(const Receiver& a, const Receiver& b) {
+  const double x = glm::length(a.normal), y = glm::length(b.normal);
+  if (!(x > 0.0 && y > 0.0) || glm::distance(a.normal / x, b.normal / y) > kMostSpread) return false;
+  const Vec3 way = b.position - a.position;
+  return std::abs(glm::dot(a.normal / x, way)) <= kMostBend * glm::length(way);
 }
 
 // Coarse place, normal, place within: 24, 20 and 20 bits.
@@ -42,44 +57,90 @@ struct Key {
   bool operator<(const Key& o) const { return order != o.order ? order < o.order : receiver < o.receiver; }
 };
 
-}  // namespace
-
-Groups makeGroups(std::span<const Receiver> receivers, double size) {
-  Box3 box;
-  for (const Receiver& r : receivers) box.add(r.position);
-  const Vec3 extent = box.size();
-  const double widest = std::max({extent.x, extent.y, extent.z, 1e-300});
-  const double coarse = std::max(size > 0.0 ? 8.0 * size : widest, widest / 255.0), fine = coarse / 64.0;
-  std::vector<Key> keys(receivers.size());
-  std::vector<std::uint64_t> normals(receivers.size());
-  for (std::uint32_t i = 0; i < receivers.size(); ++i) {
-    const Receiver& r = receivers[i];
-    normals[i] = i > 0 && r.normal == receivers[i - 1].normal ? normals[i - 1] : normalKey(r.normal);
-    const std::uint64_t hash = normals[i] * 0x9e3779b97f4a7c15ull >> 44;
-    keys[i] = {
-        zOrder(r.position, box.min, coarse) << 40 | hash << 20 | (zOrder(r.position, box.min, fine) & 0x3ffff) << 2, i};
+// Puts receivers in the order of coarse places, within these of normals, within these of fine places.
+class Sorting {
+ public:
+  Sorting(std::span<const Receiver> receivers, double size) : receivers_(receivers) {
+    Box3 box;
+    for (const Receiver& r : receivers) box.add(r.position);
+    const Vec3 extent = box.size();
+    const double widest = std::max({extent.x, extent.y, extent.z, 1e-300});
+    low_ = box.min;
+    coarse_ = std::max(size > 0.0 ? 8.0 * size : widest, widest / 255.0);
   }
-  std::sort(keys.begin(), keys.end());
-  std::vector<std::uint32_t> order(keys.size()), begin{0};
+
+  void sort(std::span<Key> keys, double normalStep) const {
+    std::uint64_t normal = 0;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const Receiver& r = receivers_[keys[i].receiver];
+      if (i == 0 || r.normal != receivers_[keys[i - 1].receiver].normal) normal = normalKey(r.normal, normalStep);
+      const std::uint64_t hash = normal * 0x9e3779b97f4a7c15ull >> 44;
+      keys[i].order = zOrder(r.position, low_, coarse_) << 40 | hash << 20 |
+                      (zOrder(r.position, low_, coarse_ / 64.0) & 0x3ffff) << 2;
+    }
+    std::sort(keys.begin(), keys.end());
+  }
+
+  static bool sameCoarsePlace(const Key& a, const Key& b) { return a.order >> 40 == b.order >> 40; }
+
+ private:
+  std::span<const Receiver> receivers_;
+  Vec3 low_{0.0};
+  double coarse_ = 0.0;
+};
+
+// Cuts what is in order into groups of at most kGroup, no wider than `size`, of which all belong with the first.
+template <class Belong, class Take>
+void cut(std::span<const Receiver> receivers, std::span<const Key> keys, double size, const Belong& belong,
+         const Take& take) {
+  std::size_t begin = 0;
   Box3 group;
-  for (std::uint32_t i = 0; i < keys.size(); ++i) {
-    order[i] = keys[i].receiver;
-    const Receiver& r = receivers[order[i]];
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const Receiver &r = receivers[keys[i].receiver], &first = receivers[keys[begin].receiver];
     Box3 grown = group;
     grown.add(r.position);
     const Vec3 s = grown.size();
-    const bool fits =
-        i == begin.back() || (i - begin.back() < std::uint32_t(kGroup) && std::max({s.x, s.y, s.z}) <= size &&
-                              receivers[order[begin.back()]].normal == r.normal);
-    if (!fits) {
-      begin.push_back(i);
+    if (i > begin && (i - begin == std::size_t{kGroup} || std::max({s.x, s.y, s.z}) > size || !belong(first, r))) {
+      take(keys.subspan(begin, i - begin));
+      begin = i;
       grown = {};
       grown.add(r.position);
     }
     group = grown;
   }
-  if (!keys.empty()) begin.push_back(static_cast<std::uint32_t>(keys.size()));
-  return {std::move(order), std::move(begin)};
+  if (!keys.empty()) take(keys.subspan(begin));
+}
+
+}  // namespace
+
+Groups makeGroups(std::span<const Receiver> receivers, double size) {
+  std::vector<Key> keys(receivers.size()), few;
+  for (std::uint32_t i = 0; i < keys.size(); ++i) keys[i].receiver = i;
+  const Sorting sorting(receivers, size);
+  sorting.sort(keys, kFine);
+  std::vector<std::uint32_t> members, begins{0};
+  const auto add = [&](std::span<const Key> group) {
+    for (const Key& k : group) members.push_back(k.receiver);
+    begins.push_back(static_cast<std::uint32_t>(members.size()));
+  };
+  const auto oneWay = [](const Receiver& a, const Receiver& b) { return a.normal == b.normal; };
+  const auto smooth = [&](const Receiver& a, const Receiver& b) { return oneWay(a, b) || areSmooth(a, b); };
+  // Place by place, so that what is asked about stays in the processor's cache.
+  for (std::size_t begin = 0; begin < keys.size();) {
+    std::size_t end = begin;
+    while (end < keys.size() && Sorting::sameCoarsePlace(keys[begin], keys[end])) ++end;
+    few.clear();
+    cut(receivers, std::span(keys).subspan(begin, end - begin), size, oneWay, [&](std::span<const Key> group) {
+      if (group.size() > kFew)
+        add(group);
+      else
+        few.insert(few.end(), group.begin(), group.end());
+    });
+    sorting.sort(few, kMostSpread);
+    cut(receivers, std::span<const Key>(few), size, smooth, add);
+    begin = end;
+  }
+  return {std::move(members), std::move(begins)};
 }
 
 SolidBoxes::SolidBoxes(std::vector<Box3> boxes) : boxes_(std::move(boxes)) {

@@ -9,7 +9,7 @@
 
 namespace umbrage::study::detail {
 
-/// Receivers that lie near each other and face one way to 1e-5 radians, a few at a time, and groups near each other in turn.
+/// Receivers that lie near each other and face about one way, a few at a time, and groups near each other in turn.
 class Groups {
  public:
   Groups(std::vector<std::uint32_t> order, std::vector<std::uint32_t> begin)

@@ -31,6 +31,12 @@ struct alignas(16) TreeQuad {
   float x[4], y[4], z[4];
 };
 
+/// Up to eight balls within closed solids, in the frame of the sun's legs; unused ones are 1e18 away.
+struct alignas(64) TreeBalls {
+  float first[8], west[8], south[8];
+  float radius[8];  ///< less by what rounding moves the eye and the middle
+};
+
 /// SunArc in single precision, as a direction in the scene's axes: rise + cosine cos h + sine sin h.
 struct ArcDirections {
   float rise[3], cosine[3], sine[3];
@@ -63,9 +69,13 @@ struct CoverJob {
   const TreeLeaf* leaves;
   const TreeQuad* quads;
   std::int32_t root;
+  const TreeNode* ballNodes;  ///< null: none
+  const TreeBalls* balls;
+  std::int32_t ballRoot;
   // the place and the leg
   float sinLatitude, cosLatitude;
   float rise, cosine, sine, error;  ///< of SunLeg::whole
+  float longest;                    ///< of the directions (cos h, sin h, height)
   float first, last;
   const ArcDirections* arcs;
   std::int32_t arcCount;
@@ -73,14 +83,18 @@ struct CoverJob {
   std::int32_t count;
   GroupPoint points[kGroup];
   Coverage covered[kGroup];
-  float eyeFirst[kGroup], eyeWest[kGroup], eyeSouth[kGroup];  ///< the points in the frame of the legs
-  float margin;                                               ///< by how much that is rounded
-  float middle[3];                                            ///< in the frame of the legs
-  float extent[3];                                            ///< half, along east, north and up
-  float normal[3];                                            ///< in the frame of the legs; 0: all ways
-  float slab[3];                                              ///< its absolute values along east, north and up
-  const std::int32_t* within;                                 ///< closed solids whose boxes meet the group's
+  alignas(32) float eyeFirst[kGroup], eyeWest[kGroup], eyeSouth[kGroup];  ///< the points in the frame of the legs
+  float margin;                                                           ///< by how much that is rounded
+  float middle[3];                                                        ///< in the frame of the legs
+  float extent[3];                                                        ///< half, along east, north and up
+  // The ways the points face, in the frame of the legs (0: all ways), and their absolute values along east, north and up: of each point, and
+  // of one that stands for all, no farther from the others than `spread`.
+  alignas(32) float facing[6][kGroup];
+  float normal[6];
+  float spread;
+  const std::int32_t* within;  ///< closed solids whose boxes meet the group's
   std::int32_t withinCount;
+  bool inside;    ///< some point may lie inside one of these, so that their averted faces are asked too
   float contact;  ///< how near to a plane a point touches it
   // what plain arithmetic does not settle
   void* context;

@@ -60,6 +60,10 @@ inline Lanes operator-(const Lanes& a) {
 inline Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) { return a * b + c; }
 inline Lanes fms(const Lanes& a, const Lanes& b, const Lanes& c) { return a * b - c; }
 inline Lanes fnma(const Lanes& a, const Lanes& b, const Lanes& c) { return c - a * b; }
+/// a b - c d, in double precision, where products of floats are exact.
+inline Lanes difference(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
+  return each([&](int i) { return float(double(a.v[i]) * double(b.v[i]) - double(c.v[i]) * double(d.v[i])); });
+}
 inline Lanes smaller(const Lanes& a, const Lanes& b) {
   return each([&](int i) { return std::min(a.v[i], b.v[i]); });
 }

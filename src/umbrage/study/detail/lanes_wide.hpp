@@ -38,6 +38,11 @@ inline Lanes operator-(Lanes a) { return _mm256_xor_ps(a.v, _mm256_set1_ps(-0.0f
 inline Lanes fma(Lanes a, Lanes b, Lanes c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }
 inline Lanes fms(Lanes a, Lanes b, Lanes c) { return _mm256_fmsub_ps(a.v, b.v, c.v); }
 inline Lanes fnma(Lanes a, Lanes b, Lanes c) { return _mm256_fnmadd_ps(a.v, b.v, c.v); }
+/// a b - c d, right to two units in the last place.
+inline Lanes difference(Lanes a, Lanes b, Lanes c, Lanes d) {
+  const Lanes ab = a * b, cd = c * d;
+  return (ab - cd) + (fms(a, b, ab) - fms(c, d, cd));
+}
 inline Lanes smaller(Lanes a, Lanes b) { return _mm256_min_ps(a.v, b.v); }
 inline Lanes larger(Lanes a, Lanes b) { return _mm256_max_ps(a.v, b.v); }
 inline Lanes magnitude(Lanes a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v); }
