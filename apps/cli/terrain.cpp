@@ -22,6 +22,7 @@ struct TerrainOptions {
   PlaceOptions place;
   milliseconds from{0}, to{std::chrono::hours(24)};
   terrain::TerrainOptions study;
+  std::optional<double> above;  ///< in the file's unit
   std::string output;
 };
 
@@ -30,6 +31,7 @@ constexpr const char* kNothing = "-9999";
 io::LoadOptions loadOptions(const TerrainOptions& options) {
   io::LoadOptions load;
   load.crs = options.scene.crs;
+  load.metresPerUnit = options.scene.metresPerUnit;
   return load;
 }
 
@@ -130,6 +132,7 @@ Result<Outcome> run(const TerrainOptions& options, const Console& console) {
 
   terrain::TerrainOptions study = options.study;
   study.load = loadOptions(options);
+  if (options.above) study.lift = *options.above * where.metresPerUnit;
   if (options.scene.trueNorth) {
     const auto projection = geo::Projection::make(raster->crs);
     if (!projection) return tl::unexpected(projection.error());
@@ -163,7 +166,8 @@ Result<Outcome> run(const TerrainOptions& options, const Console& console) {
        fmt::format("{} to {}, while the sun is at least {:g} degrees high: {:.3f} h", sun::timeText(options.from),
                    sun::timeText(options.to), study.leastElevation.degrees(), double(report->up.count()) / 3.6e6)},
       {"Sun", "centre of the disc, geometric (no refraction), declination moving"},
-      {"Receivers", fmt::format("{:g} m above the middle of every {}. cell, facing up", study.lift, study.step)},
+      {"Receivers", fmt::format("{:g} m above the middle of every {}cell, facing up", study.lift,
+                                study.step == 1 ? "" : fmt::format("{}. ", study.step))},
       {"Ground", fmt::format("{} x {} cells, two triangles between four middles, heights {:g} to {:g}", raster->columns,
                              raster->rows, raster->lowest, raster->highest)},
       study::northLine(where),
@@ -202,6 +206,8 @@ Run addTerrain(CLI::App& app) {
   addValue(app, "--every", "N", "Hours for every N-th cell and row (default 1)", options->study.step, whole(1, 10000));
   addValue(app, "--tile", "N", "Cells a side of what is held at once (default 512)", options->study.tile,
            whole(16, 4096));
+  addValue(app, "--above", "H", "Receivers stand so high above the middles of cells, in the file's unit (default 1 cm)",
+           options->above, [](const std::string& word) { return parseNumber(word, 0.0, 1e6); });
   addWord(app, "-o,--output", "OUT.asc", "The grid of hours; beside it OUT.asc.txt, what it rests on", options->output,
           {.required = true});
   return [options](const Console& console) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "program.hpp"
 
@@ -197,6 +198,46 @@ TEST_F(Maps, TerrainInTiles) {
   EXPECT_EQ(run({"terrain", writeBox(), "-o", file("x.asc")}, kVienna).code, 3);
   EXPECT_EQ(run({"terrain", wall, "--every", "1.5", "-o", file("x.asc")}, kVienna).code, 2);
   EXPECT_EQ(run({"terrain", wall, "--from", "00:00", "--to", "02:00", "-o", file("x.asc")}, kVienna).code, 2);
+}
+
+TEST_F(Maps, TerrainReceiversStandAsHighAsAsked) {
+  // A ridge along the middle column: above it the sun is seen all the time, and at its foot never less than from the foot's surface.
+  std::string raster = "ncols 21\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+  for (int row = 0; row < 5; ++row)
+    for (int column = 0; column < 21; ++column)
+      raster += std::string(column == 10 ? "6" : "0") + (column == 20 ? "\n" : " ");
+  const auto ridge = write("ridge.asc", raster);
+  const auto hours = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"terrain", ridge, "-o", file("out.asc")};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ran ran = run(words, kVienna);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    std::vector<double> values;
+    std::istringstream in(read("out.asc"));
+    for (std::string line; std::getline(in, line);)
+      if (line.find_first_of("abcdefghijklmnopqrstuvwxyz") == std::string::npos) {
+        std::istringstream row(line);
+        for (double value = 0.0; row >> value;) values.push_back(value);
+      }
+    return values;
+  };
+  const auto ground = hours({});
+  EXPECT_THAT(read("out.asc.txt"), HasSubstr("Receivers: 0.01 m above the middle of every cell, facing up"));
+  const auto eyes = hours({"--above", "7"});
+  EXPECT_THAT(read("out.asc.txt"), HasSubstr("Receivers: 7 m above the middle of every cell"));
+  const auto feet = hours({"--above", "7", "--unit", "ft"});
+  EXPECT_THAT(read("out.asc.txt"), HasSubstr("Receivers: 2.1336 m above the middle of every cell"));
+  ASSERT_EQ(ground.size(), 21u * 5u);
+  ASSERT_EQ(eyes.size(), ground.size());
+  const double up = eyes.front();
+  EXPECT_GT(up, 10.0);
+  for (std::size_t i = 0; i < eyes.size(); ++i) {
+    EXPECT_EQ(eyes[i], up) << "above everything";
+    EXPECT_EQ(feet[i], up) << "in feet as in metres, nothing is higher";
+    EXPECT_LE(ground[i], up);
+  }
+  EXPECT_LT(ground[21 * 2 + 8], 0.7 * up) << "beside the ridge";
+  EXPECT_EQ(run({"terrain", ridge, "--above", "-1", "-o", file("x.asc")}, kVienna).code, 2);
 }
 
 TEST_F(Maps, AFarPlaceIsWorthAWarning) {
