@@ -199,7 +199,8 @@ Result<HoursTable> sunHours(const scene::Scene& scene, ReceiverSet receivers, co
     if (keep) out.lit.push_back(std::move(*lit));
   }
   if (out.upHours == 0.0) out.warnings.push_back("the sun is below the horizon all the time, so all hours are 0");
-  if (out.days.size() == 1 && out.upHours >= hoursOf(out.days[0].length()) - 1e-6)
+  const bool wholeDay = request.from == milliseconds(0) && request.to >= std::chrono::hours(24);
+  if (out.days.size() == 1 && wholeDay && out.upHours >= hoursOf(out.days[0].length()) - 1e-6)
     out.warnings.push_back("the sun is up all the time");
   out.ledger = ledgerOf(scene, out);
   return out;
