@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -87,6 +88,68 @@ TEST_F(Maps, DegreesInDegreesOut) {
   EXPECT_LT(west, 16.3698);
   EXPECT_NEAR(east, 16.371, 1e-9);
   EXPECT_NEAR(south, 48.2, 1e-9);
+}
+
+TEST_F(Maps, PartsOfACityJsonBuildingShareOneOutline) {
+  // Two cubes of 2 m side by side are one house, a third stands alone 20 m off.
+  const auto cube = [](int first) {
+    std::string faces;
+    for (const auto& f : {"0,3,2,1", "4,5,6,7", "0,1,5,4", "1,2,6,5", "2,3,7,6", "3,0,4,7"}) {
+      std::string ring;
+      for (const char* c = f; *c != 0; c += c[1] == 0 ? 1 : 2)
+        ring += (ring.empty() ? "" : ",") + std::to_string(first + *c - '0');
+      faces += (faces.empty() ? "[[" : ",[[") + ring + "]]";
+    }
+    return R"("geometry":[{"type":"Solid","lod":"2","boundaries":[[)" + faces + "]]}]";
+  };
+  std::string vertices;
+  for (const int x : {0, 2, 20})
+    for (const int z : {0, 2})
+      for (const auto& [dx, dy] : {std::pair(0, 0), {2, 0}, {2, 2}, {0, 2}})
+        vertices += (vertices.empty() ? "[" : ",[") + std::to_string(x + dx) + "," + std::to_string(dy) + "," +
+                    std::to_string(z) + "]";
+  const auto city = write("houses.city.json", R"({"type":"CityJSON","version":"2.0","CityObjects":{
+    "west":{"type":"BuildingPart","parents":["house"],)" +
+                                                  cube(0) + R"(},
+    "east":{"type":"BuildingPart","parents":["house"],)" +
+                                                  cube(8) + R"(},
+    "house":{"type":"Building","children":["west","east"]},
+    "shed":{"type":"Building",)" + cube(16) + R"(}},"vertices":[)" +
+                                                  vertices + "]}");
+  const std::vector<std::string> when = {"--at", "12:00", "-o", file("out.geojson")};
+  std::vector<std::string> words = {"outline", city};
+  words.insert(words.end(), when.begin(), when.end());
+  const Ran ran = run(words, kVienna);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Json features = Json::parse(read("out.geojson")).at("features");
+  ASSERT_EQ(features.size(), 2U);
+  const double reach = 2.0 / std::tan(42.406 * M_PI / 180), turn = 163.413 * M_PI / 180;
+  const auto area = [&](double width) {
+    return width * 2.0 + reach * (2.0 * std::abs(std::sin(turn)) + width * std::abs(std::cos(turn)));
+  };
+  std::map<std::string, Json> named;
+  for (const Json& feature : features) named[feature.at("properties").at("name").get<std::string>()] = feature;
+  ASSERT_TRUE(named.contains("house") && named.contains("shed"));
+  EXPECT_EQ(named.at("house").at("geometry").at("type"), "Polygon");
+  EXPECT_NEAR(named.at("house").at("properties").at("area_m2").get<double>(), area(4.0), 2e-3);
+  EXPECT_NEAR(named.at("shed").at("properties").at("area_m2").get<double>(), area(2.0), 2e-3);
+  words[0] = "envelope";
+  words.erase(words.begin() + 2, words.begin() + 4);
+  ASSERT_EQ(run(words, kVienna).code, 0);
+  EXPECT_EQ(Json::parse(read("out.geojson")).at("features").size(), 2U);
+}
+
+TEST_F(Maps, BuildingsOfARealCityAreWhole) {
+  const auto city = testData() / "city/DH_01_subs.city.json";
+  if (testData().empty() || !std::filesystem::exists(city)) GTEST_SKIP() << "no models (UMBRAGE_TEST_DATA)";
+  const Ran ran = umbrage({"outline", city.string(), "--date", "2026-06-21", "--tz", "Europe/Amsterdam", "--lat", "52",
+                           "--lon", "4.3", "--at", "12:00", "-o", file("out.geojson")});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  // 9 objects with a shape: 8 parts of 3 buildings, and a building.
+  const Json features = Json::parse(read("out.geojson")).at("features");
+  ASSERT_EQ(features.size(), 4U);
+  for (const Json& feature : features)
+    EXPECT_THAT(feature.at("properties").at("name").get<std::string>(), StartsWith("GUID_"));
 }
 
 TEST_F(Maps, EveryFormat) {

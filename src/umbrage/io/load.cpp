@@ -59,7 +59,10 @@ detail::Hints hintsOf(const LoadOptions& options) {
 void makePrintable(scene::Scene& scene) {
   for (std::string& warning : scene.warnings) warning = detail::printable(warning, kLongestMessage);
   for (scene::Material& material : scene.materials) material.name = detail::printable(material.name, kLongestName);
-  for (scene::Instance& instance : scene.instances) instance.name = detail::printable(instance.name, kLongestName);
+  for (scene::Instance& instance : scene.instances) {
+    instance.name = detail::printable(instance.name, kLongestName);
+    instance.group = detail::printable(instance.group, kLongestName);
+  }
   for (scene::Light& light : scene.lights) light.name = detail::printable(light.name, kLongestName);
   scene.crs = detail::printable(scene.crs, kLongestName);
 }
