@@ -39,16 +39,6 @@ Result<std::vector<TimeSpan>> daysOf(const HoursRequest& r, std::vector<std::str
   return days;
 }
 
-// What samples in the middles of steps say of exact stretches.
-double sampledHours(std::span<const TimeSpan> lit, const TimeSpan& day, milliseconds step) {
-  std::size_t count = 0, k = 0;
-  for (sun::Instant t = day.from + step / 2; t < day.to; t += step) {
-    while (k < lit.size() && lit[k].to <= t) ++k;
-    if (k < lit.size() && lit[k].from <= t) ++count;
-  }
-  return hoursOf(step) * double(count);
-}
-
 // One transparent part: how much it lets through, and when nothing of it is in the way.
 struct Pane {
   double transmittance;
@@ -80,6 +70,19 @@ Result<std::vector<Pane>> panesOf(const scene::Scene& scene, const sun::Place& p
   return panes;
 }
 
+bool within(std::span<const TimeSpan> spans, sun::Instant t) {
+  return std::any_of(spans.begin(), spans.end(), [&](const TimeSpan& s) { return s.from <= t && t < s.to; });
+}
+
+// What the panes in the way let through at a moment.
+double shareAt(sun::Instant t, const std::vector<Pane>& panes, const std::vector<SunHours>& open,
+               std::size_t receiver) {
+  double share = 1.0;
+  for (std::size_t p = 0; p < panes.size(); ++p)
+    if (!within(open[p].lit(receiver), t)) share *= panes[p].transmittance;
+  return share;
+}
+
 // Lit time, each moment weighted by what the panes in the way let through.
 double weightedHours(std::span<const TimeSpan> lit, const std::vector<Pane>& panes, const std::vector<SunHours>& open,
                      std::size_t receiver) {
@@ -88,18 +91,23 @@ double weightedHours(std::span<const TimeSpan> lit, const std::vector<Pane>& pan
   for (const SunHours& o : open)
     for (const TimeSpan& s : o.lit(receiver)) cuts.push_back(s.from), cuts.push_back(s.to);
   std::sort(cuts.begin(), cuts.end());
-  const auto within = [](std::span<const TimeSpan> spans, sun::Instant t) {
-    return std::any_of(spans.begin(), spans.end(), [&](const TimeSpan& s) { return s.from <= t && t < s.to; });
-  };
   double sum = 0.0;
-  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-    if (cuts[i] == cuts[i + 1] || !within(lit, cuts[i])) continue;
-    double share = 1.0;
-    for (std::size_t p = 0; p < panes.size(); ++p)
-      if (!within(open[p].lit(receiver), cuts[i])) share *= panes[p].transmittance;
-    sum += share * hoursOf(cuts[i + 1] - cuts[i]);
-  }
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+    if (cuts[i] < cuts[i + 1] && within(lit, cuts[i]))
+      sum += shareAt(cuts[i], panes, open, receiver) * hoursOf(cuts[i + 1] - cuts[i]);
   return sum;
+}
+
+// What samples in the middles of steps say of exact stretches.
+double sampledHours(std::span<const TimeSpan> lit, const std::vector<Pane>& panes, const std::vector<SunHours>& open,
+                    std::size_t receiver, const TimeSpan& day, milliseconds step) {
+  double count = 0.0;
+  std::size_t k = 0;
+  for (sun::Instant t = day.from + step / 2; t < day.to; t += step) {
+    while (k < lit.size() && lit[k].to <= t) ++k;
+    if (k < lit.size() && lit[k].from <= t) count += shareAt(t, panes, open, receiver);
+  }
+  return hoursOf(step) * count;
 }
 
 std::string clockText(const HoursRequest& r, const std::vector<TimeSpan>& days) {
@@ -185,7 +193,7 @@ Result<HoursTable> sunHours(const scene::Scene& scene, ReceiverSet receivers, co
     }
     const auto date = std::chrono::year_month_day(sys_days(request.date) + std::chrono::days(d));
     for (std::size_t i = 0; i < count; ++i) {
-      const double hours = request.sampled ? sampledHours(lit->lit(i), out.days[d], *request.sampled)
+      const double hours = request.sampled ? sampledHours(lit->lit(i), panes, open, i, out.days[d], *request.sampled)
                            : panes.empty() ? hoursOf(lit->total(i))
                                            : weightedHours(lit->lit(i), panes, open, i);
       out.hours[i] += hours;
