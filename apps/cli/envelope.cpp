@@ -102,16 +102,15 @@ Result<Outcome> run(const EnvelopeOptions& options, const Console& console) {
   if (!envelope) return tl::unexpected(envelope.error());
   const double bound = envelope->bound * scene->metresPerUnit;
   const auto clock = sun::clockAt(options.place.zone, *place, paths.front().from);
-  auto map = mapOf(
-      *scene, casters, plane, *place, options.place, "UTC" + sun::offsetText(clock.offset),
-      {"Shadow envelope",
-       fmt::format("centre of the disc, geometric (no refraction), declination moving, at least {:g} degrees high",
-                   least),
-       options.merged ? "envelope --merged" : "envelope, part by part",
-       {{"Period", when},
-        {"Error bound",
-         fmt::format("the border is within {:.2g} m of the exact one; nothing is sampled in time", bound)}}},
-      options.scene.casters);
+  auto map =
+      mapOf(*scene, casters, plane, *place, options.place, "UTC" + sun::offsetText(clock.offset),
+            {"Shadow envelope",
+             fmt::format("declination moving (ERFA), at least {:g} degrees high", least),
+             options.merged ? "envelope --merged" : "envelope, part by part",
+             {{"Period", when},
+              {"Error bound",
+               fmt::format("the border is within {:.2g} m of the exact one; nothing is sampled in time", bound)}}},
+            options.scene.casters);
   if (!map) return tl::unexpected(map.error());
   double area = 0.0;
   for (const auto& shadow : envelope->shadows) area += shadow.region.area * scene->metresPerUnit * scene->metresPerUnit;

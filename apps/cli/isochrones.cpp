@@ -128,7 +128,7 @@ Result<Outcome> run(const IsochroneOptions& options, const Console& console) {
                              (clock.offset == noon.offset ? "" : ", then UTC" + sun::offsetText(noon.offset));
   auto map = mapOf(*scene, outline::castersOf(*scene), wanted.height, *place, options.place, offset,
                    {options.shadow ? "Hours of shadow" : "Hours of sun",
-                    "centre of the disc, geometric (no refraction), declination moving, horizon at 0 degrees",
+                    "declination moving (ERFA), horizon at 0 degrees",
                     "isochrones of exact hours",
                     {{"Period", fmt::format("{} to {}, the sun is up for {:.3f} h", sun::timeText(options.from),
                                             sun::timeText(options.to), hoursOf(course.upTime()))},

@@ -78,7 +78,7 @@ Result<Outcome> run(const OutlineOptions& options, const Console& console) {
   auto map =
       mapOf(*scene, casters, plane, *place, options.place, moments->offset,
             {"Shadow outlines",
-             "centre of the disc, geometric (no refraction), at each moment",
+             "declination of each moment (ERFA)",
              options.merged ? "outline --merged" : "outline, part by part",
              {{"Exactness", "union of the projected triangles; corners within 2^-29 of the size of what is united"}}},
             options.scene.casters);

@@ -165,7 +165,8 @@ Result<Outcome> run(const TerrainOptions& options, const Console& console) {
       {"Period",
        fmt::format("{} to {}, while the sun is at least {:g} degrees high: {:.3f} h", sun::timeText(options.from),
                    sun::timeText(options.to), study.leastElevation.degrees(), double(report->up.count()) / 3.6e6)},
-      {"Sun", "centre of the disc, geometric (no refraction), declination moving"},
+      study::sunLine(
+          {}, fmt::format("declination moving (ERFA), at least {:g} degrees high", study.leastElevation.degrees())),
       {"Receivers", fmt::format("{:g} m above the middle of every {}cell, facing up", study.lift,
                                 study.step == 1 ? "" : fmt::format("{}. ", study.step))},
       {"Ground", fmt::format("{} x {} cells, two triangles between four middles, heights {:g} to {:g}", raster->columns,
@@ -173,7 +174,7 @@ Result<Outcome> run(const TerrainOptions& options, const Console& console) {
       study::northLine(where),
       study::unitLine(where),
       study::inputLine(where),
-      study::versionLine("exact hours, tile by tile")};
+      study::versionLine("exact hours, tile by tile", options.place.zone)};
   if (const auto noted = writeFile(notes, ledgerText(ledger)); !noted) return tl::unexpected(noted.error());
   return Outcome{
       fmt::format("{}\n{}\n{} x {} values, {} tiles, at most {} triangles at once, the sun is up for {:.3f} h\n",

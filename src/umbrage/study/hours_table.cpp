@@ -126,26 +126,22 @@ std::vector<LedgerLine> ledgerOf(const scene::Scene& scene, const HoursTable& t)
   const std::string dates =
       sun::dateText(r.date) + (r.until ? fmt::format(" to {}, {} days", sun::dateText(*r.until), t.days.size()) : "");
   const char* transparent[] = {"taken as opaque", "ignored", "weighted by what they let through, each part once"};
-  return {
-      {"Place", placeText(r.place)},
-      {"Date", dates},
-      clockLine(r.zone, clockText(r, t.days)),
-      {"Period",
-       fmt::format("{} to {}; the sun is up for {:.3f} h", sun::timeText(r.from), sun::timeText(r.to), t.upHours)},
-      {"Sun", fmt::format("{} of the disc, {}, declination moving (ERFA), horizon at 0 degrees",
-                          r.model.point == SunPoint::centre ? "centre" : "upper limb",
-                          r.model.refraction == sun::Refraction::none ? "geometric (no refraction)"
-                                                                      : "with refraction (1010 hPa, 10 degrees C)")},
-      northLine(scene),
-      unitLine(scene),
-      {"Receivers", t.set.described},
-      castersLine(r.casters),
-      {"Opacity", fmt::format("surfaces that are not opaque: {}", transparent[static_cast<int>(r.transparent)])},
-      {"Time", r.sampled
-                   ? fmt::format("sampled every {:g} min, in the middles of steps", double(r.sampled->count()) / 60e3)
-                   : std::string("exact: solved for the moments at which edges uncover and cover the sun")},
-      inputLine(scene),
-      versionLine(r.sampled ? "sampled sun hours" : "exact sun hours")};
+  return {{"Place", placeText(r.place)},
+          {"Date", dates},
+          clockLine(r.zone, clockText(r, t.days)),
+          {"Period",
+           fmt::format("{} to {}; the sun is up for {:.3f} h", sun::timeText(r.from), sun::timeText(r.to), t.upHours)},
+          sunLine(r.model, "declination moving (ERFA), horizon at 0 degrees"),
+          northLine(scene),
+          unitLine(scene),
+          {"Receivers", t.set.described},
+          castersLine(r.casters),
+          {"Opacity", fmt::format("surfaces that are not opaque: {}", transparent[static_cast<int>(r.transparent)])},
+          {"Time",
+           r.sampled ? fmt::format("sampled every {:g} min, in the middles of steps", double(r.sampled->count()) / 60e3)
+                     : std::string("exact: solved for the moments at which edges uncover and cover the sun")},
+          inputLine(scene),
+          versionLine(r.sampled ? "sampled sun hours" : "exact sun hours", r.zone)};
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "umbrage/base/check.hpp"
 #include "umbrage/base/file.hpp"
+#include "umbrage/base/sha256.hpp"
 
 namespace umbrage::study {
 namespace {
@@ -281,7 +282,8 @@ Result<ReceiverSet> readReceivers(const std::filesystem::path& path) {
     if (set.receivers.size() > kMostReceivers) return wrong("these are too many points");
   }
   if (line == 0) return wrong("the file is empty; the header x,y,z,nx,ny,nz is wanted");
-  set.described = fmt::format("{} points of {}, where they are", set.receivers.size(), path.filename().string());
+  set.described = fmt::format("{} points of {}, where they are, SHA-256 {}", set.receivers.size(),
+                              path.filename().string(), sha256(*bytes));
   return set;
 }
 

@@ -93,7 +93,7 @@ void Panel::row(const std::vector<image::Rgb8>& swatches, const std::string& tex
 
 void Panel::ledger(const std::vector<study::LedgerLine>& lines) {
   const TextStyle style = soft(10.0 * scale_);
-  const double indent = 62.0 * scale_;
+  const double indent = 66.0 * scale_;
   for (const study::LedgerLine& line : lines) {
     canvas_.text(left_, y_ + 13.0 * scale_, line.subject, {10.0 * scale_, true, kSoftInk});
     for (const std::string& part : canvas_.wrap(line.text, width_ - indent, style)) {
