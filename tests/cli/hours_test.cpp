@@ -83,6 +83,13 @@ TEST_F(Hours, SeveralDaysRunsAndSamples) {
   EXPECT_THAT(read("s.csv.ledger.txt"), HasSubstr("sampled every 15 min"));
 }
 
+TEST_F(Hours, AYearTellsBothClocks) {
+  const std::string points = write("p.csv", "x,y,z,nx,ny,nz\n0,0,3,0,0,1\n");
+  ASSERT_EQ(run({"--points", points, "-o", file("y.csv"), "--year"}).code, 0);
+  EXPECT_THAT(read("y.csv.ledger.txt"), HasSubstr("Europe/Vienna, UTC+01:00 (CET), then UTC+02:00 (CEST)\n"));
+  EXPECT_THAT(read("y.csv.ledger.txt"), HasSubstr("2026-01-01 to 2026-12-31, 365 days"));
+}
+
 TEST_F(Hours, RefractionAndTheUpperLimbLengthenTheDay) {
   const std::string points = write("p.csv", "x,y,z,nx,ny,nz\n0,0,3,0,0,1\n");
   ASSERT_EQ(run({"--points", points, "-o", file("r.csv"), "--refraction", "--sun", "upper"}).code, 0);

@@ -117,8 +117,11 @@ std::string clockText(const HoursRequest& r, const std::vector<TimeSpan>& days) 
         !reading.abbreviation.empty() && std::isalpha(static_cast<unsigned char>(reading.abbreviation[0])) != 0;
     return "UTC" + sun::offsetText(reading.offset) + (lettered ? " (" + reading.abbreviation + ")" : "");
   };
-  const std::string first = offset(days.front().from), last = offset(days.back().to - milliseconds(1));
-  return first == last ? first : first + ", then " + last;
+  std::vector<std::string> all;  // in the order of the days, each once: a year begins and ends in winter
+  for (const TimeSpan& day : days)
+    for (const sun::Instant t : {day.from, day.to - milliseconds(1)})
+      if (const std::string text = offset(t); std::find(all.begin(), all.end(), text) == all.end()) all.push_back(text);
+  return fmt::format("{}", fmt::join(all, ", then "));
 }
 
 std::vector<LedgerLine> ledgerOf(const scene::Scene& scene, const HoursTable& t) {
