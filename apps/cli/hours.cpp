@@ -117,6 +117,7 @@ Result<Outcome> run(const HoursOptions& options, const Console& console) {
   if (const auto fine = check(options); !fine) return tl::unexpected(fine.error());
   const auto scene = loadScene(options.scene, console);
   if (!scene) return tl::unexpected(scene.error());
+  if (const auto casts = checkCasts(*scene, options.scene); !casts) return tl::unexpected(casts.error());
   const auto place = placeOf(options.place, *scene, options.scene, console);
   if (!place) return tl::unexpected(place.error());
   auto receivers = receiversOf(options, *scene);

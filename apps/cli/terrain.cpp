@@ -97,17 +97,6 @@ Result<void> checkSquare(const io::RasterInfo& raster, const std::string& file) 
               file);
 }
 
-Result<study::TimeSpan> spanOf(const TerrainOptions& options, const sun::Place& place) {
-  study::TimeSpan span{};
-  for (const auto& [clock, instant] : {std::pair(options.from, &span.from), std::pair(options.to, &span.to)}) {
-    const auto moment = sun::instantOf(options.place.zone, place, {options.place.date, clock});
-    if (!moment) return tl::unexpected(moment.error());
-    *instant = moment->instant;
-  }
-  if (span.from < span.to) return span;
-  return fail(ErrorCode::usage, "the period is empty or runs backwards");
-}
-
 std::string ledgerText(const std::vector<study::LedgerLine>& ledger) {
   std::string text;
   for (const auto& line : ledger) text += line.subject + ": " + line.text + "\n";
@@ -127,8 +116,14 @@ Result<Outcome> run(const TerrainOptions& options, const Console& console) {
   scene::Scene where = standIn(*raster, options.scene.file);
   const auto place = placeOf(options.place, where, options.scene, console);
   if (!place) return tl::unexpected(place.error());
-  const auto span = spanOf(options, *place);
+  const auto span = spanOf(options.from, options.to, options.place, *place, console);
   if (!span) return tl::unexpected(span.error());
+  const auto high = terrain::whileHigh(*place, *span, options.study.leastElevation);
+  if (high.from >= high.to)
+    return fail(ErrorCode::usage,
+                fmt::format("the sun is never {:g} degrees above the horizon from {} to {} (--min-elevation); {}",
+                            options.study.leastElevation.degrees(), sun::timeText(options.from),
+                            sun::timeText(options.to), sunTimes(options.place, *place)));
 
   terrain::TerrainOptions study = options.study;
   study.load = loadOptions(options);
@@ -156,12 +151,11 @@ Result<Outcome> run(const TerrainOptions& options, const Console& console) {
     return {};
   });
   if (!written) return tl::unexpected(written.error());
-  const auto clock = sun::clockAt(options.place.zone, *place, span->from);
   const std::vector<study::LedgerLine> ledger = {
       {"Values", "hours of sun, north to south and west to east; -9999 where the raster has no height"},
       {"Place", study::placeText(*place)},
       {"Date", sun::dateText(options.place.date)},
-      study::clockLine(options.place.zone, "UTC" + sun::offsetText(clock.offset)),
+      study::clockLine(options.place.zone, offsetsText(options.place, *place, *span)),
       {"Period",
        fmt::format("{} to {}, while the sun is at least {:g} degrees high: {:.3f} h", sun::timeText(options.from),
                    sun::timeText(options.to), study.leastElevation.degrees(), double(report->up.count()) / 3.6e6)},

@@ -263,6 +263,75 @@ TEST_F(Maps, TerrainInTiles) {
   EXPECT_EQ(run({"terrain", wall, "--from", "00:00", "--to", "02:00", "-o", file("x.asc")}, kVienna).code, 2);
 }
 
+// A file of which nothing was left gives no map of an open field.
+TEST_F(Maps, WithoutCastersThereIsNoFigure) {
+  const auto sunken = write("sunken.geojson", R"({"type":"Feature","properties":{"height":-10},"geometry":
+    {"type":"Polygon","coordinates":[[[16.37,48.2],[16.371,48.2],[16.371,48.201],[16.37,48.2]]]}})");
+  const auto points = write("p.csv", "x,y,z,nx,ny,nz\n0,0,3,0,0,1\n");
+  const std::vector<std::vector<std::string>> commands = {
+      {"hours", "--grid", "1", "-o", file("o.csv")},
+      {"hours", "--points", points, "-o", file("o.csv")},
+      {"outline", "--at", "12:00", "-o", file("o.geojson")},
+      {"envelope", "-o", file("o.geojson")},
+      {"isochrones", "--hours", "1", "-o", file("o.geojson")},
+      {"profile", "--from", "11:00", "--to", "12:00", "--step", "60", "-o", file("o.png")}};
+  const std::vector<std::string> nowhere(kVienna.begin() + 4, kVienna.end());
+  for (const auto& command : commands)
+    for (const auto& where : {kVienna, nowhere}) {
+      std::vector<std::string> words = {command[0], sunken};
+      words.insert(words.end(), command.begin() + 1, command.end());
+      const Ran ran = run(words, where);
+      EXPECT_EQ(ran.code, 3) << command[0];
+      EXPECT_THAT(ran.err, AllOf(HasSubstr("1 of 1 feature dropped: a height that is negative"),
+                                 HasSubstr("error: " + sunken + ": has nothing that casts shadows")));
+    }
+  EXPECT_THAT(files(), ElementsAre("p.csv", "sunken.geojson"));
+}
+
+TEST_F(Maps, PolarDaysAndNights) {
+  const auto raster = write("r.asc", "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n0 0 0\n0 2 0\n0 0 0\n");
+  const std::vector<std::string> night = {"--lat", "78", "--lon", "15", "--date", "2026-12-21", "--tz", "UTC"};
+  const std::vector<std::string> day = {"--lat", "78", "--lon", "15", "--date", "2026-06-21", "--tz", "UTC"};
+  const Ran dark = run({"terrain", raster, "-o", file("o.asc")}, night);
+  EXPECT_EQ(dark.code, 2);
+  EXPECT_THAT(dark.err, HasSubstr("never 5 degrees above the horizon from 00:00 to 24:00 (--min-elevation); it does "
+                                  "not rise on that day"));
+  for (const auto& words : {std::vector<std::string>{"envelope", writeBox(), "-o", file("o.geojson")},
+                            {"isochrones", writeBox(), "--hours", "1", "-o", file("o.geojson")},
+                            {"outline", writeBox(), "--at", "12:00", "-o", file("o.geojson")}}) {
+    const Ran ran = run(words, night);
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_THAT(ran.err, HasSubstr("it does not rise on that day"));
+  }
+  EXPECT_FALSE(exists("o.geojson"));
+  const Ran whole = run({"envelope", writeBox(), "-o", file("o.geojson")}, day);
+  EXPECT_EQ(whole.code, 0);
+  EXPECT_THAT(whole.out, HasSubstr("00:00 to 24:00 "));
+  EXPECT_EQ(run({"terrain", raster, "-o", file("o.asc")}, day).code, 0);
+  EXPECT_THAT(read("o.asc"), HasSubstr("24.0000"));
+}
+
+TEST_F(Maps, ClocksThatChangeAreTold) {
+  const auto raster = write("r.asc", "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n0 0 0\n0 2 0\n0 0 0\n");
+  const std::vector<std::string> spring = {"--lat",  "48.2",       "--lon", "16.37",
+                                           "--date", "2026-03-29", "--tz",  "Europe/Vienna"};
+  const std::vector<std::string> autumn = {"--lat",  "48.2",       "--lon", "16.37",
+                                           "--date", "2026-10-25", "--tz",  "Europe/Vienna"};
+  const std::string both = "UTC+01:00 (CET), then UTC+02:00 (CEST)";
+  ASSERT_EQ(run({"terrain", raster, "-o", file("o.asc")}, spring).code, 0);
+  EXPECT_THAT(read("o.asc.txt"), HasSubstr(both));
+  ASSERT_EQ(run({"isochrones", writeBox(), "--hours", "1", "-o", file("o.geojson")}, spring).code, 0);
+  EXPECT_THAT(read("o.geojson"), HasSubstr(both));
+  const Ran left = run({"terrain", raster, "--from", "02:30", "-o", file("o.asc")}, spring);
+  EXPECT_EQ(left.code, 2);
+  EXPECT_THAT(left.err, HasSubstr("does not exist in Europe/Vienna"));
+  const Ran twice = run({"terrain", raster, "--from", "02:30", "-o", file("o.asc")}, autumn);
+  EXPECT_EQ(twice.code, 0);
+  EXPECT_THAT(twice.err, HasSubstr("02:30"));
+  const Ran back = run({"terrain", raster, "--from", "10:00", "--to", "09:00", "-o", file("o.asc")}, autumn);
+  EXPECT_THAT(back.err, HasSubstr("the period from 10:00 to 09:00 is empty or runs backwards"));
+}
+
 TEST_F(Maps, TerrainReceiversStandAsHighAsAsked) {
   // A ridge along the middle column: above it the sun is seen all the time, and at its foot never less than from the foot's surface.
   std::string raster = "ncols 21\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 1\n";

@@ -175,6 +175,21 @@ TEST(CityJson, partsKnowTheirBuilding) {
   }
 }
 
+TEST(CityJson, degreesAreNotTakenForMetres) {
+  const std::string text = R"({"type":"CityJSON","version":"2.0","CityObjects":{"b":{"type":"Building","geometry":
+    [{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2]]]}]}},
+    "vertices":[[16.37,48.2,0],[16.3702,48.2,0],[16.37,48.2001,10]]})";
+  const test::Folder folder;
+  const auto file = folder.write("degrees.city.json", text);
+  const auto refused = loadScene(file);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("look like degrees, though CityJSON says they are lengths"), std::string::npos)
+      << refused.error().message;
+  LoadOptions options;
+  options.crs = "local";
+  EXPECT_TRUE(loadScene(file, options));
+}
+
 TEST(CityJson, templatesAreInstanced) {
   const std::string templates =
       R"("geometry-templates":{"templates":[{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2]]]}],

@@ -135,6 +135,11 @@ Box3 boxInPlan(const scene::Scene& scene, const std::vector<const scene::Instanc
   return box;
 }
 
+tl::unexpected<Error> noMiddles(const scene::Scene& scene, double step) {
+  return fail(ErrorCode::usage, fmt::format("no cell of {:g} has its middle on the surface; take smaller steps", step),
+              scene.source);
+}
+
 enum class Facing { up, asTheSurface };
 
 // A receiver in each cell whose middle lies over the parts.
@@ -206,6 +211,7 @@ Result<ReceiverSet> groundReceivers(const scene::Scene& scene, const std::vector
   auto lattice = latticeAround(box, step, 0.0);
   if (!lattice) return tl::unexpected(lattice.error());
   ReceiverSet set = layOn(scene, parts, std::move(*lattice), above, Facing::asTheSurface);
+  if (set.receivers.empty()) return noMiddles(scene, step);
   set.described = fmt::format("grid of {:g} on the highest surface of {}, {:g} above it", step, named(patterns), above);
   return set;
 }
@@ -219,6 +225,7 @@ Result<ReceiverSet> rasterReceivers(const scene::Scene& scene, const std::option
   auto lattice = extent ? latticeOver(*extent, step) : latticeAround(box, step, 0.0);
   if (!lattice) return tl::unexpected(lattice.error());
   ReceiverSet set = layOn(scene, parts, std::move(*lattice), above, Facing::up);
+  if (set.receivers.empty()) return noMiddles(scene, step);
   set.described = fmt::format("grid of {:g} on the raster's surface, {:g} above it, facing up", step, above);
   return set;
 }

@@ -32,7 +32,7 @@ inline constexpr std::size_t kMostReceivers = 50'000'000;
 [[nodiscard]] Result<ReceiverSet> planeReceivers(const scene::Scene& scene, double step, double height);
 
 /// The same on the highest surface of the parts that match a pattern (scene::matchesName), `above` it.
-/// Errors: usage (nothing matches, or more than kMostReceivers).
+/// Errors: usage (nothing matches, no middle of a cell is on it, or more than kMostReceivers).
 [[nodiscard]] Result<ReceiverSet> groundReceivers(const scene::Scene& scene, const std::vector<std::string>& patterns,
                                                   double step, double above);
 
@@ -47,7 +47,7 @@ inline constexpr double kAboveRaster = 0.01;
 
 /// The same on the whole surface of a height raster, `above` it, facing up as in terrain::terrainHours. Cells begin at the north-western
 /// corner of `extent`, the raster's outer edges, so that steps of the raster's own cells are its cells; without one, at whole steps.
-/// REQUIRES: step > 0. Errors: input (no heights), usage (more than kMostReceivers).
+/// REQUIRES: step > 0. Errors: input (no heights), usage (no middle of a cell is on it, or more than kMostReceivers).
 [[nodiscard]] Result<ReceiverSet> rasterReceivers(const scene::Scene& scene, const std::optional<PlanExtent>& extent,
                                                   double step, double above);
 

@@ -62,6 +62,15 @@ TEST(Receivers, otherStepsBeginAtTheRastersCornerOrAtWholeSteps) {
   EXPECT_EQ(whole->lattice.north, 6398780.0);
 }
 
+TEST(Receivers, aGridThatMissesTheSurfaceIsNoGrid) {
+  for (const auto& none : {rasterReceivers(Slope::scene(), Slope::extent(), 50.0, 0.0),
+                           groundReceivers(Slope::scene(), {"terrain"}, 1000.0, 0.0)}) {
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().code, ErrorCode::usage);
+    EXPECT_NE(none.error().message.find("take smaller steps"), std::string::npos);
+  }
+}
+
 TEST(Receivers, aRasterWithoutHeightsHasNoGround) {
   const auto none = rasterReceivers({}, std::nullopt, 1.0, 0.0);
   ASSERT_FALSE(none);

@@ -8,7 +8,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <exception>
 #include <fstream>
 
@@ -157,8 +156,7 @@ std::string releaseOfZones() {
     return {};
   }
   constexpr std::string_view kBefore = "# version ";
-  const char* folder = std::getenv("TZDIR");
-  std::ifstream file(std::string(folder != nullptr ? folder : "/usr/share/zoneinfo") + "/tzdata.zi");
+  std::ifstream file("/usr/share/zoneinfo/tzdata.zi");
   std::string line;
   std::getline(file, line);
   return line.starts_with(kBefore) && line.size() < 40 ? line.substr(kBefore.size()) : std::string();
@@ -172,6 +170,10 @@ Result<Zone> parseZone(std::string_view text) {
   if (!text.empty() && (text[0] == '+' || text[0] == '-')) return parseOffset(text);
   try {
     const auto& zones = date::get_tzdb().zones;
+    if (zones.empty())
+      return fail(ErrorCode::usage, fmt::format("time zone '{}' is not known, for this system has no time zone data "
+                                                "(Debian: the package tzdata); +HH:MM and 'solar' work without them",
+                                                text));
     const bool known = std::any_of(zones.begin(), zones.end(), [&](const auto& zone) { return zone.name() == text; });
     if (known) {
       const Zone zone{Zone::Kind::named, std::string(text), {}};

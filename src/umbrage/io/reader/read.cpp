@@ -37,7 +37,8 @@ Result<scene::Scene> read(const Request& request) {
   scene::Scene tidied = tidy(std::move(*scene));
   if (request.hints.crs && !isProjectedHere(tidied))
     tidied.crs = *request.hints.crs == "local" ? "" : geo::shortName(*request.hints.crs);
-  if (auto fine = checkLengths(tidied); !fine) return tl::unexpected(fine.error());
+  const bool inMetres = *format == detail::Format::cityJson || *format == detail::Format::cityJsonSeq;
+  if (auto fine = checkLengths(tidied, inMetres && !request.hints.crs ? "CityJSON" : ""); !fine) return tl::unexpected(fine.error());
   if (!isDouble(*format)) warnOfCoarseness(tidied);
   return tidied;
 }
