@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -129,6 +130,27 @@ TEST_F(Hours, PolarNightAndDay) {
   const Ran day = at78("2026-06-21");
   EXPECT_THAT(day.err, HasSubstr("up all the time"));
   EXPECT_EQ(lines("n.csv")[1], "24.0000,24.0000,00:00:00-24:00:00");
+}
+
+// In a room of its own in which the system's time zones are hidden; where none may be made the test is skipped.
+TEST_F(Hours, WithoutTimeZoneDataTheReasonIsSaid) {
+  const auto inRoom = [&](const std::string& command) {
+    const std::string whole = "unshare -rm sh -c 'mount -t tmpfs none /usr/share/zoneinfo && " + command + "' >" +
+                              file("out.txt") + " 2>" + file("err.txt");
+    const int status = std::system(whole.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  if (inRoom("true") != 0) GTEST_SKIP() << "no room of its own can be made here (unshare)";
+  const auto hours = [&](const std::string& zone) {
+    return inRoom(UMBRAGE_PROGRAM " hours " + box_ + " --lat 48.2 --lon 16.37 --date 2026-09-18 --grid 1 --tz " + zone +
+                  " -o " + file("h.csv"));
+  };
+  EXPECT_EQ(hours("Europe/Vienna"), 2);
+  EXPECT_THAT(read("err.txt"), AllOf(HasSubstr("this system has no time zone data"), HasSubstr("tzdata"),
+                                     HasSubstr("+HH:MM and 'solar' work")));
+  EXPECT_FALSE(exists("h.csv"));
+  EXPECT_EQ(hours("+02:00"), 0) << read("err.txt");
+  EXPECT_EQ(hours("solar"), 0) << read("err.txt");
 }
 
 // A wall from south to north across a plain, with a hole beside it.
