@@ -53,8 +53,9 @@ double lodNumber(const std::string& lod) {
 
 // Where an object stands among the others.
 struct Ancestry {
-  std::string path;   // the ancestors' names, outermost first
-  std::string group;  // the building, bridge, .. it belongs to: its outermost ancestor that is no mere collection, or itself
+  std::string path;  // the ancestors' names, outermost first
+  std::string
+      group;  // the building, bridge, .. it belongs to: its outermost ancestor that is no mere collection, or itself
 };
 
 // Who is whose parent: by what children say of their parents, else by what parents say of their children. Collections
@@ -128,7 +129,8 @@ class CityReader {
 };
 
 Result<void> CityReader::begin(const Json& document) {
-  if (textOf(member(document, "type")) != "CityJSON") return fail(ErrorCode::input, "is not CityJSON: its \"type\" is not \"CityJSON\"");
+  if (textOf(member(document, "type")) != "CityJSON")
+    return fail(ErrorCode::input, "is not CityJSON: its \"type\" is not \"CityJSON\"");
   scene_.up = scene::UpAxis::z;
   scene_.crs = geo::shortName(textOf(member(member(document, "metadata"), "referenceSystem")));
   transform_ = transformOf(document);
