@@ -26,22 +26,11 @@ struct EnvelopeOptions {
 
 Result<outline::SweepPeriod> periodOf(const EnvelopeOptions& options, const scene::Scene& scene,
                                       const sun::Place& place, double reach, const Console& console) {
-  outline::SweepPeriod period{place, scene.northOffset, {}, {}, options.leastElevation, 1e-4};
-  for (const auto& [clock, instant] : {std::pair(options.from, &period.from), std::pair(options.to, &period.to)}) {
-    const auto moment = sun::instantOf(options.place.zone, place, {options.place.date, clock});
-    if (!moment) return tl::unexpected(moment.error());
-    if (moment->warning) console.warn(*moment->warning);
-    *instant = moment->instant;
-  }
-  if (period.from >= period.to)
-    return fail(ErrorCode::usage, fmt::format("the period from {} to {} is empty or runs backwards",
-                                              sun::timeText(options.from), sun::timeText(options.to)));
+  const auto span = spanOf(options.from, options.to, options.place, place, console);
+  if (!span) return tl::unexpected(span.error());
+  outline::SweepPeriod period{place, scene.northOffset, span->from, span->to, options.leastElevation, 1e-4};
   if (reach > 0.0) period.tolerance = options.tolerance / (reach * scene.metresPerUnit);
   return period;
-}
-
-std::string clockOf(sun::Instant instant, const EnvelopeOptions& options, const sun::Place& place) {
-  return sun::timeText(sun::clockAt(options.place.zone, place, instant).clock.time);
 }
 
 // "08:12:03 to 15:40:11", with more stretches behind commas.
@@ -49,8 +38,8 @@ std::string stretches(const std::vector<outline::SlopePath>& paths, const Envelo
                       const sun::Place& place) {
   std::string text;
   for (const auto& path : paths)
-    text += fmt::format("{}{} to {}", text.empty() ? "" : ", ", clockOf(path.from, options, place),
-                        clockOf(path.to, options, place));
+    text += fmt::format("{}{} to {}", text.empty() ? "" : ", ", clockText(options.place, place, path.from),
+                        clockText(options.place, place, path.to));
   return text;
 }
 
@@ -79,6 +68,7 @@ Result<Outcome> run(const EnvelopeOptions& options, const Console& console) {
   if (const auto open = checkMapFile(options.map, options.scene.file); !open) return tl::unexpected(open.error());
   const auto scene = loadScene(options.scene, console);
   if (!scene) return tl::unexpected(scene.error());
+  if (const auto casts = checkCasts(*scene, options.scene); !casts) return tl::unexpected(casts.error());
   const auto place = placeOf(options.place, *scene, options.scene, console);
   if (!place) return tl::unexpected(place.error());
   const double plane = planeOf(options.map, *scene);
@@ -101,17 +91,16 @@ Result<Outcome> run(const EnvelopeOptions& options, const Console& console) {
       casters, plane, paths, options.merged ? outline::Grouping::merged : outline::Grouping::parts, console.progress());
   if (!envelope) return tl::unexpected(envelope.error());
   const double bound = envelope->bound * scene->metresPerUnit;
-  const auto clock = sun::clockAt(options.place.zone, *place, paths.front().from);
-  auto map = mapOf(
-      *scene, casters, plane, *place, options.place, "UTC" + sun::offsetText(clock.offset),
-      {"Shadow envelope",
-       fmt::format("centre of the disc, geometric (no refraction), declination moving, at least {:g} degrees high",
-                   least),
-       options.merged ? "envelope --merged" : "envelope, part by part",
-       {{"Period", when},
-        {"Error bound",
-         fmt::format("the border is within {:.2g} m of the exact one; nothing is sampled in time", bound)}}},
-      options.scene.casters);
+  auto map =
+      mapOf(*scene, casters, plane, *place, options.place,
+            offsetsText(options.place, *place, {paths.front().from, paths.back().to}),
+            {"Shadow envelope",
+             fmt::format("declination moving (ERFA), at least {:g} degrees high", least),
+             options.merged ? "envelope --merged" : "envelope, part by part",
+             {{"Period", when},
+              {"Error bound",
+               fmt::format("the border is within {:.2g} m of the exact one; nothing is sampled in time", bound)}}},
+            options.scene.casters);
   if (!map) return tl::unexpected(map.error());
   double area = 0.0;
   for (const auto& shadow : envelope->shadows) area += shadow.region.area * scene->metresPerUnit * scene->metresPerUnit;

@@ -7,6 +7,7 @@
 #include "moments.hpp"
 #include "outputs.hpp"
 #include "place.hpp"
+#include "umbrage/io/raster.hpp"
 #include "umbrage/report/write_hours.hpp"
 
 namespace umbrage::cli {
@@ -22,7 +23,7 @@ struct HoursOptions {
   bool year = false;
   std::string points, output;
   std::optional<double> grid, plane;
-  double above = 0.0;
+  std::optional<double> above;
   std::vector<std::string> on, faces;
   std::optional<milliseconds> least, sampled;
   study::Transparent transparent = study::Transparent::opaque;
@@ -54,8 +55,9 @@ Result<void> check(const HoursOptions& o) {
   const auto kinds = o.points.empty() ? std::vector<std::string>{".csv", ".png", ".glb", ".tif"}
                                       : std::vector<std::string>{".csv", ".glb"};
   if (auto known = checkExtension("-o", o.output, kinds); !known) return known;
-  if (!o.points.empty() && (o.plane || !o.on.empty() || !o.faces.empty()))
-    return fail(ErrorCode::usage, "--plane, --on and --faces belong to --grid");
+  if (!o.points.empty() && (o.plane || o.above || !o.on.empty() || !o.faces.empty()))
+    return fail(ErrorCode::usage, "--plane, --on, --faces and --above belong to --grid");
+  if (o.above && !o.faces.empty()) return fail(ErrorCode::usage, "--above lifts planes and grounds, not --faces");
   if (int(o.plane.has_value()) + int(!o.on.empty()) + int(!o.faces.empty()) > 1)
     return fail(ErrorCode::usage, "--plane, --on and --faces exclude each other");
   if (o.year && o.until) return fail(ErrorCode::usage, "--year and --until exclude each other");
@@ -65,12 +67,25 @@ Result<void> check(const HoursOptions& o) {
   return checkOutputs(outputs, o.points);
 }
 
+// The outer edges of a raster whose rows run from west to east; nothing where they run askew or the raster is in degrees.
+std::optional<study::PlanExtent> extentOf(const HoursOptions& o, const scene::Scene& scene) {
+  io::LoadOptions load;
+  load.crs = o.scene.crs;
+  const auto raster = io::inspectRaster(o.scene.file, load);
+  if (!raster || scene.up != scene::UpAxis::z || raster->right.y != 0.0 || raster->down.x != 0.0) return std::nullopt;
+  const Vec2 a = raster->origin, b = a + double(raster->columns) * raster->right + double(raster->rows) * raster->down;
+  return study::PlanExtent{std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.x, b.x), std::max(a.y, b.y)};
+}
+
 Result<study::ReceiverSet> receiversOf(const HoursOptions& o, const scene::Scene& scene) {
   if (!o.points.empty()) return study::readReceivers(o.points);
   if (!o.faces.empty()) return study::faceReceivers(scene, o.faces, *o.grid);
-  if (!o.on.empty()) return study::groundReceivers(scene, o.on, *o.grid, o.above);
+  if (!o.on.empty()) return study::groundReceivers(scene, o.on, *o.grid, o.above.value_or(0.0));
+  if (!o.plane && io::isRaster(o.scene.file))
+    return study::rasterReceivers(scene, extentOf(o, scene), *o.grid,
+                                  o.above.value_or(study::kAboveRaster / scene.metresPerUnit));
   const double lowest = glm::dot(scene::bounds(scene).min, scene::upVector(scene.up));
-  return study::planeReceivers(scene, *o.grid, o.plane.value_or(lowest) + o.above);
+  return study::planeReceivers(scene, *o.grid, o.plane.value_or(lowest) + o.above.value_or(0.0));
 }
 
 study::HoursRequest requestOf(const HoursOptions& o, const sun::Place& place) {
@@ -102,6 +117,7 @@ Result<Outcome> run(const HoursOptions& options, const Console& console) {
   if (const auto fine = check(options); !fine) return tl::unexpected(fine.error());
   const auto scene = loadScene(options.scene, console);
   if (!scene) return tl::unexpected(scene.error());
+  if (const auto casts = checkCasts(*scene, options.scene); !casts) return tl::unexpected(casts.error());
   const auto place = placeOf(options.place, *scene, options.scene, console);
   if (!place) return tl::unexpected(place.error());
   auto receivers = receiversOf(options, *scene);
@@ -136,16 +152,16 @@ Run addHours(CLI::App& app) {
   addWord(app, "--points", "P.csv", "Points, with the header x,y,z,nx,ny,nz", options->points, where);
   addValue(app, "--grid", "STEP", "A grid, its cells so wide, in the scene's unit", options->grid, parseLength, where);
   addValue(
-      app, "--plane", "HEIGHT", "of the grid (default: the scene's lowest point)", options->plane,
-      [](const std::string& w) { return parseNumber(w, -1e9, 1e9); }, where);
+      app, "--plane", "HEIGHT", "of the grid (default: the scene's lowest point; the surface of a raster)",
+      options->plane, [](const std::string& w) { return parseNumber(w, -1e9, 1e9); }, where);
   addValues(app, "--on", "PART",
             "The grid lies on the highest surface of these parts, a terrain for example (repeatable)", options->on,
             parseWord, where);
   addValues(app, "--faces", "PART", "Points on all faces of these parts, STEP apart (repeatable)", options->faces,
             parseWord, where);
   addValue(
-      app, "--above", "H", "Receivers lie so high above the plane or the parts (default 0)", options->above,
-      [](const std::string& w) { return parseNumber(w, 0.0, 1e6); }, where);
+      app, "--above", "H", "Receivers lie so high above the plane or the parts (default 0; above a raster 1 cm)",
+      options->above, [](const std::string& w) { return parseNumber(w, 0.0, 1e6); }, where);
   addWord(app, "-o,--output", "OUT", "H.csv; of grids also .png (heat map), .tif (GeoTIFF), .glb (coloured squares)",
           options->output, {.required = true});
   addValue(app, "--at-least", "MIN", "Counts the runs of sun at least so long, and their hours", options->least,

@@ -44,19 +44,6 @@ Result<std::vector<double>> parseHours(const std::string& word) {
   return hours;
 }
 
-Result<study::TimeSpan> spanOf(const IsochroneOptions& options, const sun::Place& place, const Console& console) {
-  study::TimeSpan span{};
-  for (const auto& [clock, instant] : {std::pair(options.from, &span.from), std::pair(options.to, &span.to)}) {
-    const auto moment = sun::instantOf(options.place.zone, place, {options.place.date, clock});
-    if (!moment) return tl::unexpected(moment.error());
-    if (moment->warning) console.warn(*moment->warning);
-    *instant = moment->instant;
-  }
-  if (span.from < span.to) return span;
-  return fail(ErrorCode::usage, fmt::format("the period from {} to {} is empty or runs backwards",
-                                            sun::timeText(options.from), sun::timeText(options.to)));
-}
-
 double hoursOf(milliseconds time) { return double(time.count()) / 3.6e6; }
 
 // In the scene's unit.
@@ -93,9 +80,10 @@ Result<Outcome> run(const IsochroneOptions& options, const Console& console) {
   if (const auto open = checkMapFile(options.map, options.scene.file); !open) return tl::unexpected(open.error());
   const auto scene = loadScene(options.scene, console);
   if (!scene) return tl::unexpected(scene.error());
+  if (const auto casts = checkCasts(*scene, options.scene); !casts) return tl::unexpected(casts.error());
   const auto place = placeOf(options.place, *scene, options.scene, console);
   if (!place) return tl::unexpected(place.error());
-  const auto span = spanOf(options, *place, console);
+  const auto span = spanOf(options.from, options.to, options.place, *place, console);
   if (!span) return tl::unexpected(span.error());
   const auto course = study::SunCourse::make(*place, *span);
   if (course.up().empty())
@@ -122,13 +110,10 @@ Result<Outcome> run(const IsochroneOptions& options, const Console& console) {
   const double tolerance = wanted.tolerance * scene->metresPerUnit;
   console.detail(fmt::format("{} exact hours worked out", found->samples));
 
-  const auto clock = sun::clockAt(options.place.zone, *place, span->from);
-  const auto noon = sun::clockAt(options.place.zone, *place, span->from + (span->to - span->from) / 2);
-  const std::string offset = "UTC" + sun::offsetText(clock.offset) +
-                             (clock.offset == noon.offset ? "" : ", then UTC" + sun::offsetText(noon.offset));
-  auto map = mapOf(*scene, outline::castersOf(*scene), wanted.height, *place, options.place, offset,
+  auto map = mapOf(*scene, outline::castersOf(*scene), wanted.height, *place, options.place,
+                   offsetsText(options.place, *place, *span),
                    {options.shadow ? "Hours of shadow" : "Hours of sun",
-                    "centre of the disc, geometric (no refraction), declination moving, horizon at 0 degrees",
+                    "declination moving (ERFA), horizon at 0 degrees",
                     "isochrones of exact hours",
                     {{"Period", fmt::format("{} to {}, the sun is up for {:.3f} h", sun::timeText(options.from),
                                             sun::timeText(options.to), hoursOf(course.upTime()))},

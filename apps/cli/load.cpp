@@ -72,6 +72,11 @@ Result<scene::Scene> loadScene(const SceneOptions& options) {
   return scene::withCasters(std::move(*scene), options.casters);
 }
 
+Result<void> checkCasts(const scene::Scene& scene, const SceneOptions& options) {
+  if (!scene::bounds(scene, true).empty()) return {};
+  return fail(ErrorCode::input, "has nothing that casts shadows", options.file);
+}
+
 Result<scene::Scene> loadScene(const SceneOptions& options, const Console& console) {
   auto scene = [&] {
     const Stage stage(console, fmt::format("reading {}", shortName(options.file)));

@@ -47,14 +47,14 @@ Result<report::VectorMap> mapOf(const scene::Scene& scene, const std::vector<out
   map.ledger = {{"Place", study::placeText(place)},
                 {"Date", sun::dateText(when.date)},
                 study::clockLine(when.zone, clockOffset),
-                {"Sun", subject.sun},
+                study::sunLine({}, subject.sun),
                 {"Plane", fmt::format("horizontal, at height {:g}", plane)},
                 study::northLine(scene),
                 study::unitLine(scene),
                 study::castersLine(patterns)};
   map.ledger.insert(map.ledger.end(), subject.more.begin(), subject.more.end());
   map.ledger.push_back(study::inputLine(scene));
-  map.ledger.push_back(study::versionLine(subject.method));
+  map.ledger.push_back(study::versionLine(subject.method, when.zone));
   return map;
 }
 

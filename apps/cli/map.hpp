@@ -21,8 +21,8 @@ void addMapOptions(CLI::App& app, MapOptions& options);
 /// The height of the plane.
 [[nodiscard]] double planeOf(const MapOptions& options, const scene::Scene& scene);
 
-/// A map of the scene with its buildings and the ledger that all maps have; layers and features are the caller's. `sun` says how the sun
-/// was taken, `method` how the map was made.
+/// A map of the scene with its buildings and the ledger that all maps have; layers and features are the caller's. `sun` says what is added to how the
+/// sun was taken (study::sunLine), `method` how the map was made.
 struct MapSubject {
   std::string title, sun, method;
   std::vector<study::LedgerLine> more;

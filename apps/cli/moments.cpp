@@ -68,6 +68,32 @@ void addMomentOptions(CLI::App& app, MomentOptions& options) {
   addValue(app, "--step", "MIN", "Minutes from one moment to the next", options.step, parseStep, time);
 }
 
+Result<study::TimeSpan> spanOf(std::chrono::milliseconds from, std::chrono::milliseconds to, const PlaceOptions& when,
+                               const sun::Place& place, const Console& console) {
+  study::TimeSpan span{};
+  for (const auto& [clock, instant] : {std::pair(from, &span.from), std::pair(to, &span.to)}) {
+    const auto moment = sun::instantOf(when.zone, place, {when.date, clock});
+    if (!moment) return tl::unexpected(moment.error());
+    if (moment->warning) console.warn(*moment->warning);
+    *instant = moment->instant;
+  }
+  if (span.from < span.to) return span;
+  return fail(ErrorCode::usage, fmt::format("the period from {} to {} is empty or runs backwards", sun::timeText(from),
+                                            sun::timeText(to)));
+}
+
+std::string offsetsText(const PlaceOptions& when, const sun::Place& place, const study::TimeSpan& span) {
+  const std::string first = offsetText(when, place, span.from),
+                    last = offsetText(when, place, span.to - std::chrono::milliseconds(1));
+  return first == last ? first : first + ", then " + last;
+}
+
+std::string clockText(const PlaceOptions& when, const sun::Place& place, sun::Instant instant) {
+  const auto reading = sun::clockAt(when.zone, place, instant).clock;
+  const bool nextDay = std::chrono::sys_days(reading.date) > std::chrono::sys_days(when.date);
+  return sun::timeText(nextDay ? reading.time + std::chrono::hours(24) : reading.time);
+}
+
 std::string sunTimes(const PlaceOptions& when, const sun::Place& place) {
   const auto day = sun::sunDay(place, when.zone, when.date);
   if (!day) return "its day is not known";

@@ -4,6 +4,7 @@
 
 #include "place.hpp"
 #include "umbrage/study/period.hpp"
+#include "umbrage/study/sun_course.hpp"
 
 namespace umbrage::cli {
 
@@ -21,6 +22,15 @@ void addMomentOptions(CLI::App& app, MomentOptions& options);
 /// at all of them (with the times of its rise and set).
 [[nodiscard]] Result<study::PeriodSteps> momentsOf(const MomentOptions& options, const PlaceOptions& when,
                                                    const sun::Place& place);
+
+/// A period of a day by the clock, with the clock's warnings shown. Errors: usage, where it is empty or runs backwards, or the clock
+/// leaves a border out.
+[[nodiscard]] Result<study::TimeSpan> spanOf(std::chrono::milliseconds from, std::chrono::milliseconds to,
+                                             const PlaceOptions& when, const sun::Place& place, const Console& console);
+/// How the clock stands to UTC in a span, for ledgers: "UTC+01:00 (CET), then UTC+02:00 (CEST)".
+[[nodiscard]] std::string offsetsText(const PlaceOptions& when, const sun::Place& place, const study::TimeSpan& span);
+/// What the clock shows at an instant of a period; at its end, midnight is 24:00.
+[[nodiscard]] std::string clockText(const PlaceOptions& when, const sun::Place& place, sun::Instant instant);
 
 /// When the sun rises and sets, as a sentence: "it rises at 05:12 and sets at 19:40 (Europe/Vienna)".
 [[nodiscard]] std::string sunTimes(const PlaceOptions& when, const sun::Place& place);

@@ -33,6 +33,9 @@ void addSceneOptions(CLI::App& app, SceneOptions& options);
 /// The same, its warnings shown on the console.
 [[nodiscard]] Result<scene::Scene> loadScene(const SceneOptions& options, const Console& console);
 
+/// Refuses a scene in which nothing casts a shadow: all figures of it would be those of an open field. Errors: input.
+[[nodiscard]] Result<void> checkCasts(const scene::Scene& scene, const SceneOptions& options);
+
 /// `--ground`: at a height, or at the scene's lowest point.
 struct Ground {
   std::optional<double> height;

@@ -59,6 +59,7 @@ Result<Outcome> run(const OutlineOptions& options, const Console& console) {
   if (const auto open = checkMapFile(options.map, options.scene.file); !open) return tl::unexpected(open.error());
   const auto scene = loadScene(options.scene, console);
   if (!scene) return tl::unexpected(scene.error());
+  if (const auto casts = checkCasts(*scene, options.scene); !casts) return tl::unexpected(casts.error());
   const auto place = placeOf(options.place, *scene, options.scene, console);
   if (!place) return tl::unexpected(place.error());
   const auto moments = momentsOf(options.moments, options.place, *place);
@@ -78,7 +79,7 @@ Result<Outcome> run(const OutlineOptions& options, const Console& console) {
   auto map =
       mapOf(*scene, casters, plane, *place, options.place, moments->offset,
             {"Shadow outlines",
-             "centre of the disc, geometric (no refraction), at each moment",
+             "declination of each moment (ERFA)",
              options.merged ? "outline --merged" : "outline, part by part",
              {{"Exactness", "union of the projected triangles; corners within 2^-29 of the size of what is united"}}},
             options.scene.casters);

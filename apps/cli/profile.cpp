@@ -55,6 +55,7 @@ Result<Outcome> run(const ProfileOptions& options, const Console& console) {
   everything.casters.clear();
   auto scene = loadScene(everything, console);
   if (!scene) return tl::unexpected(scene.error());
+  if (const auto casts = checkCasts(*scene, options.scene); !casts) return tl::unexpected(casts.error());
   ViewOptions framed = options.view;
   if (options.noGround) framed.ground.reset();
   const auto view = makeView(std::move(*scene), framed);

@@ -22,6 +22,7 @@ struct TerrainOptions {
   PlaceOptions place;
   milliseconds from{0}, to{std::chrono::hours(24)};
   terrain::TerrainOptions study;
+  std::optional<double> above;  ///< in the file's unit
   std::string output;
 };
 
@@ -30,6 +31,7 @@ constexpr const char* kNothing = "-9999";
 io::LoadOptions loadOptions(const TerrainOptions& options) {
   io::LoadOptions load;
   load.crs = options.scene.crs;
+  load.metresPerUnit = options.scene.metresPerUnit;
   return load;
 }
 
@@ -95,17 +97,6 @@ Result<void> checkSquare(const io::RasterInfo& raster, const std::string& file) 
               file);
 }
 
-Result<study::TimeSpan> spanOf(const TerrainOptions& options, const sun::Place& place) {
-  study::TimeSpan span{};
-  for (const auto& [clock, instant] : {std::pair(options.from, &span.from), std::pair(options.to, &span.to)}) {
-    const auto moment = sun::instantOf(options.place.zone, place, {options.place.date, clock});
-    if (!moment) return tl::unexpected(moment.error());
-    *instant = moment->instant;
-  }
-  if (span.from < span.to) return span;
-  return fail(ErrorCode::usage, "the period is empty or runs backwards");
-}
-
 std::string ledgerText(const std::vector<study::LedgerLine>& ledger) {
   std::string text;
   for (const auto& line : ledger) text += line.subject + ": " + line.text + "\n";
@@ -125,11 +116,18 @@ Result<Outcome> run(const TerrainOptions& options, const Console& console) {
   scene::Scene where = standIn(*raster, options.scene.file);
   const auto place = placeOf(options.place, where, options.scene, console);
   if (!place) return tl::unexpected(place.error());
-  const auto span = spanOf(options, *place);
+  const auto span = spanOf(options.from, options.to, options.place, *place, console);
   if (!span) return tl::unexpected(span.error());
+  const auto high = terrain::whileHigh(*place, *span, options.study.leastElevation);
+  if (high.from >= high.to)
+    return fail(ErrorCode::usage,
+                fmt::format("the sun is never {:g} degrees above the horizon from {} to {} (--min-elevation); {}",
+                            options.study.leastElevation.degrees(), sun::timeText(options.from),
+                            sun::timeText(options.to), sunTimes(options.place, *place)));
 
   terrain::TerrainOptions study = options.study;
   study.load = loadOptions(options);
+  if (options.above) study.lift = *options.above * where.metresPerUnit;
   if (options.scene.trueNorth) {
     const auto projection = geo::Projection::make(raster->crs);
     if (!projection) return tl::unexpected(projection.error());
@@ -153,23 +151,24 @@ Result<Outcome> run(const TerrainOptions& options, const Console& console) {
     return {};
   });
   if (!written) return tl::unexpected(written.error());
-  const auto clock = sun::clockAt(options.place.zone, *place, span->from);
   const std::vector<study::LedgerLine> ledger = {
       {"Values", "hours of sun, north to south and west to east; -9999 where the raster has no height"},
       {"Place", study::placeText(*place)},
       {"Date", sun::dateText(options.place.date)},
-      study::clockLine(options.place.zone, "UTC" + sun::offsetText(clock.offset)),
+      study::clockLine(options.place.zone, offsetsText(options.place, *place, *span)),
       {"Period",
        fmt::format("{} to {}, while the sun is at least {:g} degrees high: {:.3f} h", sun::timeText(options.from),
                    sun::timeText(options.to), study.leastElevation.degrees(), double(report->up.count()) / 3.6e6)},
-      {"Sun", "centre of the disc, geometric (no refraction), declination moving"},
-      {"Receivers", fmt::format("{:g} m above the middle of every {}. cell, facing up", study.lift, study.step)},
+      study::sunLine(
+          {}, fmt::format("declination moving (ERFA), at least {:g} degrees high", study.leastElevation.degrees())),
+      {"Receivers", fmt::format("{:g} m above the middle of every {}cell, facing up", study.lift,
+                                study.step == 1 ? "" : fmt::format("{}. ", study.step))},
       {"Ground", fmt::format("{} x {} cells, two triangles between four middles, heights {:g} to {:g}", raster->columns,
                              raster->rows, raster->lowest, raster->highest)},
       study::northLine(where),
       study::unitLine(where),
       study::inputLine(where),
-      study::versionLine("exact hours, tile by tile")};
+      study::versionLine("exact hours, tile by tile", options.place.zone)};
   if (const auto noted = writeFile(notes, ledgerText(ledger)); !noted) return tl::unexpected(noted.error());
   return Outcome{
       fmt::format("{}\n{}\n{} x {} values, {} tiles, at most {} triangles at once, the sun is up for {:.3f} h\n",
@@ -202,6 +201,8 @@ Run addTerrain(CLI::App& app) {
   addValue(app, "--every", "N", "Hours for every N-th cell and row (default 1)", options->study.step, whole(1, 10000));
   addValue(app, "--tile", "N", "Cells a side of what is held at once (default 512)", options->study.tile,
            whole(16, 4096));
+  addValue(app, "--above", "H", "Receivers stand so high above the middles of cells, in the file's unit (default 1 cm)",
+           options->above, [](const std::string& word) { return parseNumber(word, 0.0, 1e6); });
   addWord(app, "-o,--output", "OUT.asc", "The grid of hours; beside it OUT.asc.txt, what it rests on", options->output,
           {.required = true});
   return [options](const Console& console) {

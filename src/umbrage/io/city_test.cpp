@@ -158,6 +158,38 @@ TEST(CityJson, parentsAreTheHierarchy) {
   EXPECT_EQ(scene.instances[1].name, "y/x");
 }
 
+// By the child's own word, by the parent's alone, through a parent that is a part itself; collections are no buildings.
+TEST(CityJson, partsKnowTheirBuilding) {
+  const std::string geometry = R"("geometry":[)" + solid(kOuter) + "]";
+  const auto scene = loaded(city(
+      R"("a":{"type":"BuildingPart","parents":["h/1"],)" + geometry + R"(},"b":{"type":"BuildingPart",)" + geometry +
+      R"(},"c":{"type":"BuildingInstallation","parents":["a"],)" + geometry +
+      R"(},"d":{"type":"Building","parents":["all"],)" + geometry + R"(},"e":{"type":"Building",)" + geometry + R"(},
+    "h/1":{"type":"Building","children":["a","b"]},"all":{"type":"CityObjectGroup","children":["d","e"]})"));
+  ASSERT_EQ(scene.instances.size(), 5U);
+  const std::vector<std::pair<std::string, std::string>> expected = {
+      {"h_1/a", "h/1"}, {"h_1/b", "h/1"}, {"h_1/a/c", "h/1"}, {"all/d", "d"}, {"e", "e"}};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(scene.instances[i].name, expected[i].first);
+    EXPECT_EQ(scene.instances[i].group, expected[i].second);
+  }
+}
+
+TEST(CityJson, degreesAreNotTakenForMetres) {
+  const std::string text = R"({"type":"CityJSON","version":"2.0","CityObjects":{"b":{"type":"Building","geometry":
+    [{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2]]]}]}},
+    "vertices":[[16.37,48.2,0],[16.3702,48.2,0],[16.37,48.2001,10]]})";
+  const test::Folder folder;
+  const auto file = folder.write("degrees.city.json", text);
+  const auto refused = loadScene(file);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("look like degrees, though CityJSON says they are lengths"), std::string::npos)
+      << refused.error().message;
+  LoadOptions options;
+  options.crs = "local";
+  EXPECT_TRUE(loadScene(file, options));
+}
+
 TEST(CityJson, templatesAreInstanced) {
   const std::string templates =
       R"("geometry-templates":{"templates":[{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2]]]}],

@@ -166,6 +166,25 @@ TEST(GeoJson, crossingRingsAreRepairedOrDropped) {
   EXPECT_TRUE(warns(scene, "1 of 3 polygons dropped: fewer than three"));
 }
 
+TEST(GeoJson, whatOfAHoleLiesOutsideIsNoBuilding) {
+  LoadOptions local;
+  local.crs = "local";
+  const std::string outer = "[[0,0],[10,0],[10,10],[0,10],[0,0]]";
+  const auto areaOf = [&](const std::string& rings) {
+    const auto scene = loaded(map(feature(R"({"height":1})", "[" + rings + "]")), local);
+    EXPECT_TRUE(warns(scene, "1 of 1 polygon repaired"));
+    EXPECT_EQ(test::wholeReport<Vec3>(scene).borderEdges, 0U);
+    return volume(scene);
+  };
+  // Half of the hole lies outside: 4 x 4 of 4 x 8.
+  EXPECT_NEAR(areaOf(outer + ",[[3,6],[7,6],[7,14],[3,14],[3,6]]"), 100.0 - 16.0, 1e-9);
+  // Two holes that share 2 x 2.
+  EXPECT_NEAR(areaOf(outer + ",[[2,2],[6,2],[6,6],[2,6],[2,2]],[[4,4],[8,4],[8,8],[4,8],[4,4]]"), 100.0 - 28.0, 1e-9);
+  // A spike on the outer ring, and a hole.
+  EXPECT_NEAR(areaOf("[[0,0],[10,0],[10,5],[20,5],[10,5],[10,10],[0,10],[0,0]],[[2,2],[6,2],[6,6],[2,6],[2,2]]"),
+              100.0 - 16.0, 1e-9);
+}
+
 TEST(GeoJson, oddFeaturesAreCounted) {
   const auto scene =
       loaded(map(feature(R"({"height":-7})", kSquare) + "," + feature("null", kSquare) + "," +

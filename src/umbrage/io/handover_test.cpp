@@ -31,7 +31,7 @@ scene::Scene sample() {
   s.warnings = {"a", ""};
   s.materials = {{"brick", Vec3(0.1, 0.2, 0.3), 1.0}, {"", Vec3(1.0), 0.5}};
   s.meshes = {triangle()};
-  s.instances = {{"A/B", 0, Mat4(2.0), true}, {"", 0, Mat4(1.0), false}};
+  s.instances = {{"A/B", 0, Mat4(2.0), true, "A"}, {"", 0, Mat4(1.0), false}};
   s.lights = {{scene::PointLight{Vec3(1, 2, 3)}, Vec3(1, 0, 0), 2.0, "lamp"},
               {scene::DirectionalLight{Vec3(0, -1, 0)}, Vec3(1.0), 1.0, ""},
               {scene::SpotLight{Vec3(0.0), Vec3(0, 0, -1), Angle::degrees(30)}, Vec3(1.0), 1.0, "spot"}};
@@ -48,6 +48,8 @@ TEST(Handover, bringsEverythingAcross) {
   EXPECT_EQ(scene->materials[1].opacity, 0.5);
   EXPECT_EQ(scene->meshes[0]->positions[2], Vec3(0, 1, 0.1));
   EXPECT_EQ(scene->instances[0].name, "A/B");
+  EXPECT_EQ(scene->instances[0].group, "A");
+  EXPECT_EQ(scene->instances[1].group, "");
   EXPECT_FALSE(scene->instances[1].casts);
   EXPECT_EQ(std::get<scene::SpotLight>(scene->lights[2].shape).cutoff, Angle::degrees(30));
 }

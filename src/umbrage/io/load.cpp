@@ -59,7 +59,10 @@ detail::Hints hintsOf(const LoadOptions& options) {
 void makePrintable(scene::Scene& scene) {
   for (std::string& warning : scene.warnings) warning = detail::printable(warning, kLongestMessage);
   for (scene::Material& material : scene.materials) material.name = detail::printable(material.name, kLongestName);
-  for (scene::Instance& instance : scene.instances) instance.name = detail::printable(instance.name, kLongestName);
+  for (scene::Instance& instance : scene.instances) {
+    instance.name = detail::printable(instance.name, kLongestName);
+    instance.group = detail::printable(instance.group, kLongestName);
+  }
   for (scene::Light& light : scene.lights) light.name = detail::printable(light.name, kLongestName);
   scene.crs = detail::printable(scene.crs, kLongestName);
 }
@@ -82,8 +85,9 @@ Result<scene::Scene> loadScene(const std::filesystem::path& path, const LoadOpti
     return fail(ErrorCode::unsupported,
                 "is of a format that is not known by its extension; readable are " + listOfExtensions(), path.string());
   const auto readerTime = std::chrono::duration_cast<std::chrono::milliseconds>(options.timeLimit * kReadersShare);
-  const auto bytes = detail::runReader({std::filesystem::absolute(path), hintsOf(options), readerTime, options.memoryLimit,
-                                        *format == detail::Format::raster ? detail::kRasterReader : detail::kReader});
+  const auto bytes =
+      detail::runReader({std::filesystem::absolute(path), hintsOf(options), readerTime, options.memoryLimit,
+                         *format == detail::Format::raster ? detail::kRasterReader : detail::kReader});
   if (!bytes) return tl::unexpected(about(path, bytes.error()));
   auto scene = detail::unpack(*bytes);
   if (!scene) return tl::unexpected(about(path, scene.error()));

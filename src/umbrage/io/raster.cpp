@@ -2,7 +2,11 @@
 
 #include <cmath>
 
+#include "umbrage/io/detail/format.hpp"
+
 namespace umbrage::io {
+
+bool isRaster(const std::filesystem::path& path) { return detail::formatOf(path) == detail::Format::raster; }
 
 // The reader hands the figures over as the points of a mesh (reader/raster.cpp).
 Result<RasterInfo> inspectRaster(const std::filesystem::path& path, const LoadOptions& options) {

@@ -24,6 +24,9 @@ struct RasterInfo {
   }
 };
 
+/// Whether a file is read as a height raster: by its extension, in any case.
+[[nodiscard]] bool isRaster(const std::filesystem::path& path);
+
 /// Reads all heights once, block by block, in the confined process: a raster larger than memory is fine.
 /// Errors: those of loadScene; unsupported, for rasters in degrees.
 [[nodiscard]] Result<RasterInfo> inspectRaster(const std::filesystem::path& path, const LoadOptions& options = {});

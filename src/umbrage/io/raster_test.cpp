@@ -41,6 +41,33 @@ TEST(Raster, cellsWithoutHeightAreHoles) {
   EXPECT_TRUE(warns(*scene, "1 of 24 cells have no height"));
 }
 
+// Cells of a tenth of a millimetre beside a tower of nine metres: longitude and latitude of a file that does not say so.
+TEST(Raster, degreesAreNotTakenForMetres) {
+  const test::Folder folder;
+  const auto file = folder.write("a.asc",
+                                 "ncols 3\nnrows 3\nxllcorner 16.37\nyllcorner 48.2\ncellsize 0.0001\n"
+                                 "0 0 0\n0 9 0\n0 0 0\n");
+  const auto refused = loadScene(file);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::input);
+  for (const char* part : {"look like degrees", "0.1 mm", "--crs EPSG:4326", "--crs local"})
+    EXPECT_NE(refused.error().message.find(part), std::string::npos) << refused.error().message;
+  EXPECT_FALSE(inspectRaster(file));
+  LoadOptions options;
+  options.crs = "EPSG:31256";
+  EXPECT_FALSE(loadScene(file, options)) << "a system of metres makes it no better";
+  options.crs = "EPSG:4326";
+  const auto projected = loadScene(file, options);
+  ASSERT_TRUE(projected) << projected.error().text();
+  EXPECT_NEAR(scene::bounds(*projected).size().y, 22.24, 0.05);
+  options.crs = "local";
+  EXPECT_TRUE(loadScene(file, options));
+  // A model on a table is small too, but not taller than it is wide.
+  EXPECT_TRUE(loadScene(folder.write("b.asc",
+                                     "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 0.005\n"
+                                     "0 0 0\n0 0.01 0\n0 0 0\n")));
+}
+
 TEST(Raster, inspected) {
   const test::Folder folder;
   const auto info =

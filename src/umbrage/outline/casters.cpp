@@ -24,8 +24,9 @@ std::vector<CasterPart> castersOf(const scene::Scene& scene) {
   std::unordered_map<std::string, std::size_t> known;
   for (const scene::Instance& instance : scene.instances) {
     if (!instance.casts) continue;
-    const auto [at, isNew] = known.try_emplace(instance.name, parts.size());
-    if (isNew) parts.push_back({instance.name, {}, {}, {}});
+    const std::string& name = instance.group.empty() ? instance.name : instance.group;
+    const auto [at, isNew] = known.try_emplace(name, parts.size());
+    if (isNew) parts.push_back({name, {}, {}, {}});
     append(parts[at->second], instance, *scene.meshes[instance.mesh], scene.up);
   }
   return parts;

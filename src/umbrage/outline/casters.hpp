@@ -9,7 +9,7 @@
 
 namespace umbrage::outline {
 
-/// All casting triangles of one name. Points are (east, north, height) in the scene's unit, in double precision.
+/// All casting triangles of one building where the scene knows buildings (Instance::group), else of one name. Points are (east, north, height) in the scene's unit, in double precision.
 struct CasterPart {
   std::string name;
   std::vector<Vec3> points;

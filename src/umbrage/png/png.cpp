@@ -3,7 +3,9 @@
 #include <png.h>
 
 #include <cstring>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "umbrage/base/file.hpp"
@@ -13,8 +15,35 @@ namespace {
 
 constexpr std::uint32_t kLargestSide = 16384;
 
+constexpr std::size_t kHeaderEnd = 8 + 25;  // the signature and IHDR, which comes first
+
+// Most significant byte first.
+std::string fourBytes(std::uint32_t number) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift & 0xff);
+  return bytes;
+}
+
+// Source: Portable Network Graphics Specification, 2003, annex D.
+std::uint32_t checksum(std::string_view bytes) {
+  std::uint32_t crc = 0xffffffffU;
+  for (const char b : bytes) {
+    crc ^= static_cast<unsigned char>(b);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1) != 0 ? 0xedb88320U ^ (crc >> 1) : crc >> 1;
+  }
+  return ~crc;
+}
+
+// The simple interface of libpng writes no text, so the chunk is made here.
+std::string chunkOf(const Text& text) {
+  constexpr std::string_view kPlain("\0\0\0\0\0", 5);  // not compressed, in no language, keyword not translated
+  const std::string body = "iTXt" + text.keyword + std::string(kPlain) + text.text;
+  return fourBytes(static_cast<std::uint32_t>(body.size() - 4)) + body + fourBytes(checksum(body));
+}
+
 template <class Pixel>
-Result<void> writePixels(const std::filesystem::path& path, const image::Image<Pixel>& picture, png_uint_32 format) {
+Result<void> writePixels(const std::filesystem::path& path, const image::Image<Pixel>& picture, png_uint_32 format,
+                         const std::vector<Text>& texts = {}) {
   if (picture.empty()) return fail(ErrorCode::output, "an empty picture cannot be written", path.string());
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
@@ -28,6 +57,10 @@ Result<void> writePixels(const std::filesystem::path& path, const image::Image<P
     bytes.resize(size);
     if (png_image_write_to_memory(&header, bytes.data(), &size, 0, pixels, 0, nullptr) != 0) {
       bytes.resize(size);
+      std::string remarks;
+      for (const Text& text : texts) remarks += chunkOf(text);
+      const auto more = std::as_bytes(std::span(remarks));
+      bytes.insert(bytes.begin() + kHeaderEnd, more.begin(), more.end());
       return writeFile(path, bytes);
     }
   }
@@ -44,6 +77,10 @@ Result<void> write(const std::filesystem::path& path, const image::RgbImage& pic
 }
 Result<void> write(const std::filesystem::path& path, const image::RgbaImage& picture) {
   return writePixels(path, picture, PNG_FORMAT_RGBA);
+}
+
+Result<void> write(const std::filesystem::path& path, const image::RgbImage& picture, const std::vector<Text>& texts) {
+  return writePixels(path, picture, PNG_FORMAT_RGB, texts);
 }
 
 Result<image::RgbaImage> read(const std::filesystem::path& path) {

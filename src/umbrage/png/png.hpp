@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "umbrage/base/error.hpp"
 #include "umbrage/image/image.hpp"
@@ -11,6 +13,14 @@ namespace umbrage::png {
 [[nodiscard]] Result<void> write(const std::filesystem::path& path, const image::GreyImage& picture);
 [[nodiscard]] Result<void> write(const std::filesystem::path& path, const image::RgbImage& picture);
 [[nodiscard]] Result<void> write(const std::filesystem::path& path, const image::RgbaImage& picture);
+
+/// A remark inside a file (an iTXt chunk): 1 to 79 letters of ASCII, and any UTF-8.
+struct Text {
+  std::string keyword, text;
+};
+/// With remarks, which viewers show as properties of the file.
+[[nodiscard]] Result<void> write(const std::filesystem::path& path, const image::RgbImage& picture,
+                                 const std::vector<Text>& texts);
 
 /// Any PNG, converted to 8-bit RGBA. Errors: not a PNG, broken, larger than 16384 pixels on a side.
 [[nodiscard]] Result<image::RgbaImage> read(const std::filesystem::path& path);

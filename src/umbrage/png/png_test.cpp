@@ -25,6 +25,23 @@ TEST(Png, GreyIsReadAsEqualChannels) {
   EXPECT_EQ(read(path).value()(1, 0), (image::Rgba8{128, 128, 128, 255}));
 }
 
+TEST(Png, RemarksStandInTheFileAndChangeNoPixel) {
+  image::RgbImage picture(3, 2);
+  picture(2, 1) = {10, 20, 30};
+  const auto path = temporary("umbrage_remarks.png");
+  ASSERT_TRUE(write(path, picture, {{"Place", "48.2000 N \u00b0"}, {"Input", ""}}));
+  const auto back = read(path);
+  ASSERT_TRUE(back) << "the checksums of the chunks are right, or libpng would refuse the file";
+  EXPECT_EQ((*back)(2, 1), (image::Rgba8{10, 20, 30, 255}));
+  const auto bytes = readFile(path);
+  ASSERT_TRUE(bytes);
+  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  EXPECT_NE(text.find(std::string_view("iTXtPlace\0\0\0\0\0"
+                                       "48.2000 N \u00b0",
+                                       26)),
+            text.npos);
+}
+
 TEST(Png, BrokenFilesAndEmptyPicturesAreErrors) {
   const auto path = temporary("umbrage_broken.png");
   ASSERT_TRUE(writeFile(path, "not a png"));

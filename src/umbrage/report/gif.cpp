@@ -90,6 +90,12 @@ int putFrame(GifFileType& gif, const IndexImage& frame, const Rect& part, std::c
   return GIF_OK;
 }
 
+int putComments(GifFileType& gif, const std::vector<std::string>& comments) {
+  for (const std::string& comment : comments)
+    if (EGifPutComment(&gif, comment.substr(0, 255).c_str()) != GIF_OK) return GIF_ERROR;
+  return GIF_OK;
+}
+
 Result<detail::Palette> paletteOf(const Animation& animation) {
   detail::ColourCount count;
   std::set<std::size_t> chosen;
@@ -115,6 +121,7 @@ Result<std::vector<std::byte>> encode(const Animation& animation, const detail::
     IndexImage frame = palette.indices(*picture);
     const bool first = i == 0;
     if (first && putHeader(*gif, palette, frame.width(), frame.height()) != GIF_OK) return encoderFailed(gif->Error);
+    if (first && putComments(*gif, animation.comments) != GIF_OK) return encoderFailed(gif->Error);
     const Rect part = first ? Rect{0, 0, frame.width(), frame.height()} : changed(before, frame);
     if (putFrame(*gif, frame, part, animation.delay) != GIF_OK) return encoderFailed(gif->Error);
     before = std::move(frame);

@@ -14,6 +14,7 @@ struct Animation {
   std::size_t frames = 0;
   std::function<Result<image::RgbImage>(std::size_t)> frame;
   std::chrono::milliseconds delay{500};
+  std::vector<std::string> comments;  ///< inside the file, each cut off behind 255 bytes
 };
 
 /// Writes an endless animated GIF, whole or not at all: one palette of 256 colours for all frames, no dithering, each frame cut to

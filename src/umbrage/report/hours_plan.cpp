@@ -15,6 +15,8 @@ using detail::Canvas;
 using detail::Panel;
 
 constexpr int kView = 900;  // pixels of the longer side
+constexpr std::size_t kShades = 256;
+constexpr image::Rgb8 kNothing{236, 238, 242}, kBuilt{214, 214, 218};
 
 std::string subtitleOf(const scene::Scene& scene, const study::HoursTable& table) {
   const std::size_t slash = scene.source.find_last_of("/\\");
@@ -59,6 +61,29 @@ image::GreyImage coverOf(const scene::Scene& scene, const study::Lattice& l, dou
   return cover;
 }
 
+// An arrow to the north of the frame.
+void drawNorth(Canvas& canvas, double size) {
+  const double x = 34 * size, y = 54 * size;
+  canvas.fillDisc({x, y - 14 * size}, 27 * size, {255, 255, 255}, 0.8);
+  canvas.fillPolygon(std::vector<Vec2>{{x, y - 34 * size}, {x + 8 * size, y}, {x, y - 6 * size}, {x - 8 * size, y}},
+                     {198, 44, 44});
+  canvas.text(x, y + 9 * size, "N", {11 * size, true}, detail::Align::centre);
+}
+
+// How long so much of the picture is: a round number of metres, about a fifth of its width. `pixel`: metres.
+void drawLength(Canvas& canvas, double size, int height, int width, double pixel) {
+  const double most = 0.25 * width * pixel, power = std::pow(10.0, std::floor(std::log10(most)));
+  double length = power;
+  for (const double step : {2.0, 5.0})
+    if (step * power <= most) length = step * power;
+  const double across = length / pixel, left = 18 * size, y = height - 18 * size;
+  const std::string text = length < 1000.0 ? fmt::format("{:g} m", length) : fmt::format("{:g} km", length / 1000.0);
+  const double room = std::max(across, canvas.textWidth(text, {11 * size}));
+  canvas.fillRect(left - 8 * size, y - 24 * size, room + 16 * size, 34 * size, {255, 255, 255}, 0.8, 6 * size);
+  canvas.fillRect(left, std::round(y - 1.5 * size), across, std::round(3 * size), {33, 37, 45});
+  canvas.text(left, y - 7 * size, text, {11 * size});
+}
+
 }  // namespace
 
 image::RgbImage hoursPlan(const scene::Scene& scene, const study::HoursTable& table) {
@@ -66,8 +91,8 @@ image::RgbImage hoursPlan(const scene::Scene& scene, const study::HoursTable& ta
   const int longer = std::max(l.columns, l.rows), pixels = std::max(1, kView / longer),
             shrink = std::max(1, (longer + 4095) / 4096);
   const int width = std::max(1, l.columns * pixels / shrink), rows = std::max(1, l.rows * pixels / shrink);
-  const double most = detail::scaleTop(table);
-  image::RgbImage view(width, rows, {228, 231, 236});
+  const detail::HoursScale scale = detail::scaleOf(table);
+  image::RgbImage view(width, rows, kNothing);
   const double height =
       table.set.receivers.empty() ? 0.0 : glm::dot(table.set.receivers[0].position, scene::upVector(scene.up));
   const bool level = std::all_of(table.set.receivers.begin(), table.set.receivers.end(), [&](const auto& r) {
@@ -76,15 +101,17 @@ image::RgbImage hoursPlan(const scene::Scene& scene, const study::HoursTable& ta
   const image::GreyImage cover =
       level && shrink == 1 ? coverOf(scene, l, height + 1e-6, pixels, width, rows) : image::GreyImage(width, rows, 0);
   std::vector<double> shown;
+  bool builtOver = false, missing = false;
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < width; ++x) {
       const int column = std::min(l.columns - 1, x * shrink / pixels), row = std::min(l.rows - 1, y * shrink / pixels);
       const std::int32_t r = l.receiver[static_cast<std::size_t>(row) * static_cast<std::size_t>(l.columns) +
                                         static_cast<std::size_t>(column)];
+      missing = missing || r < 0;
       if (r < 0) continue;
       const bool built = cover(x, y) != 0;
-      view(x, y) =
-          built ? image::Rgb8{214, 214, 218} : detail::hoursColour(table.hours[static_cast<std::size_t>(r)] / most);
+      builtOver = builtOver || built;
+      view(x, y) = built ? kBuilt : detail::hoursColour(table.hours[static_cast<std::size_t>(r)] / scale.top);
       if (!built) shown.push_back(table.hours[static_cast<std::size_t>(r)]);
     }
   for (int y = 1; y < rows; ++y)
@@ -100,28 +127,25 @@ image::RgbImage hoursPlan(const scene::Scene& scene, const study::HoursTable& ta
     panel.title("Hours of sun", subtitleOf(scene, table));
     panel.gap(8);
     std::vector<Panel::Tick> ticks;
-    const double each = detail::tickStep(most);
-    for (double h = 0.0; h <= most + 1e-9; h += each) ticks.push_back({h / most, fmt::format("{:g}", h)});
+    const int steps = static_cast<int>(std::lround(scale.top / scale.step));
+    for (int i = 0; i <= steps; ++i) ticks.push_back({double(i) / steps, fmt::format("{:g}", i * scale.step)});
     panel.bar(
-        64, [](std::size_t i) { return detail::hoursColour((double(i) + 0.5) / 64.0); }, ticks);
+        kShades, [](std::size_t i) { return detail::hoursColour((double(i) + 0.5) / double(kShades)); }, ticks);
     panel.gap(6);
     panel.row({}, "least", fmt::format("{:.2f} h", share(0)));
     panel.row({}, "median", fmt::format("{:.2f} h", share(0.5)));
     panel.row({}, "mean", fmt::format("{:.2f} h", mean));
     panel.row({}, "most", fmt::format("{:.2f} h", share(1)));
-    panel.row({{214, 214, 218}}, "built over", "");
+    if (builtOver) panel.row({kBuilt}, "built over", "");
+    if (missing) panel.row({kNothing}, "no surface", "");
     panel.gap(8);
     panel.heading("What the figures rest on");
     panel.ledger(table.ledger);
   };
-  return detail::besidePanel(view, write, [](Canvas& canvas, double scale) {
-    // An arrow to the north of the frame.
-    const double x = 30 * scale, y = 62 * scale;
-    canvas.fillDisc({x, y - 14 * scale}, 27 * scale, {255, 255, 255}, 0.8);
-    canvas.fillPolygon(
-        std::vector<Vec2>{{x, y - 34 * scale}, {x + 8 * scale, y}, {x, y - 6 * scale}, {x - 8 * scale, y}},
-        {198, 44, 44});
-    canvas.text(x, y + 9 * scale, "N", {11 * scale, true}, detail::Align::centre);
+  const double pixel = l.step * shrink / pixels * scene.metresPerUnit;
+  return detail::besidePanel(view, write, [&](Canvas& canvas, double size) {
+    drawNorth(canvas, size);
+    drawLength(canvas, size, rows, width, pixel);
   });
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "umbrage/image/compare.hpp"
 #include "umbrage/png/png.hpp"
 #include "umbrage/report/colours.hpp"
+#include "umbrage/report/detail/hours_scale.hpp"
 #include "umbrage/report/gif.hpp"
 #include "umbrage/report/profile_pictures.hpp"
 #include "umbrage/report/step_pictures.hpp"
@@ -168,6 +170,26 @@ TEST(HoursPicture, GoesFromNoneToAllOnItsScale) {
   };
   EXPECT_GT(luminance(at(0, -14)), 200);  // always in the sun
   EXPECT_LT(luminance(at(5, 6)), 120);    // always in shadow
+}
+
+// Hours of a moment, a day or a year.
+TEST(HoursScale, EndsSoonBehindTheMostAtARoundNumber) {
+  for (double most = 0.01; most < 9000.0; most *= 1.003) {
+    const detail::HoursScale scale = detail::scaleFor(most);
+    EXPECT_GE(scale.top, most * (1.0 - 1e-6));
+    EXPECT_LE(scale.top, 1.2 * most) << "little of the colours is left over; most just above 5, where the end is 6";
+    const double steps = scale.top / scale.step;
+    EXPECT_NEAR(steps, std::round(steps), 1e-9) << "the last label stands at the top";
+    EXPECT_GE(steps, 3.99);
+    EXPECT_LE(steps, 9.01);
+    const double digits = scale.step / std::pow(10.0, std::floor(std::log10(scale.step)) - 1.0);
+    EXPECT_NEAR(digits, std::round(digits), 1e-6) << "no more than two digits: " << scale.step;
+  }
+  EXPECT_EQ(detail::scaleFor(12.26).top, 12.5);
+  EXPECT_EQ(detail::scaleFor(12.0).top, 12.0);
+  EXPECT_EQ(detail::scaleFor(17.776).top, 18.0);
+  EXPECT_EQ(detail::scaleFor(4431.0).top, 4500.0);
+  EXPECT_EQ(detail::scaleFor(0.0).top, 1.0);
 }
 
 // One bad byte must not silence the rest of the legend.

@@ -102,9 +102,10 @@ class Svg {
     return fmt::format(
                "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
                "{1:.0f}\" "
-               "font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\">\n<title>{2}</title>\n<desc>{3}</desc>\n"
+               "font-family=\"DejaVu Sans, Helvetica, Arial, "
+               "sans-serif\">\n<title>{2}</title>\n<desc>{3}</desc>\n<metadata>{4}</metadata>\n"
                "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
-               width, height, escaped(map_.title), escaped(description())) +
+               width, height, escaped(map_.title), escaped(description()), escaped(ledger())) +
            out_ + "</svg>\n";
   }
 
@@ -116,6 +117,12 @@ class Svg {
   [[nodiscard]] std::string description() const {
     return fmt::format("Paths are in the scene's unit, x east and y north of ({}, {}), at height {}", frame_.origin.x,
                        frame_.origin.y, map_.height);
+  }
+  // Once more without breaks, for programs.
+  [[nodiscard]] std::string ledger() const {
+    std::string text;
+    for (const auto& line : map_.ledger) text += (text.empty() ? "" : "\n") + line.subject + ": " + line.text;
+    return text;
   }
   template <class... T>
   void add(fmt::format_string<T...> form, T&&... values) {

@@ -9,6 +9,7 @@
 #include "umbrage/png/png.hpp"
 #include "umbrage/report/detail/hours_glb.hpp"
 #include "umbrage/report/detail/hours_tiff.hpp"
+#include "umbrage/report/detail/remarks.hpp"
 
 namespace umbrage::report {
 namespace {
@@ -59,7 +60,7 @@ Result<std::vector<std::filesystem::path>> writeHours(const study::HoursTable& t
     if (done) done = writeFile(path, csvOf(table, grid || table.set.spacing > 0.0));
     written.push_back(beside);
   } else if (kind == ".png") {
-    done = png::write(path, hoursPlan(scene, table));
+    done = png::write(path, hoursPlan(scene, table), detail::remarksOf(table.ledger));
   } else if (kind == ".tif") {
     done = detail::writeHoursTiff(table, scene, path);
   } else if (kind == ".glb") {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "umbrage/png/png.hpp"
+#include "umbrage/report/detail/remarks.hpp"
 #include "umbrage/report/gif.hpp"
 #include "umbrage/report/profile_pictures.hpp"
 #include "umbrage/report/step_pictures.hpp"
@@ -30,6 +31,7 @@ Result<std::vector<std::filesystem::path>> writeProfile(const study::Profile& pr
   Animation steps;
   steps.frames = profile.steps.size();
   steps.delay = std::clamp(kLoop / int(profile.steps.size()), kShortest, kLongest);
+  for (const study::LedgerLine& line : profile.ledger) steps.comments.push_back(line.subject + ": " + line.text);
   steps.frame = [&](std::size_t i) -> Result<image::RgbImage> {
     const double total = double(steps.frames) + double(std::min<std::size_t>(steps.frames, 8)) + 2.0;
     if (!reportProgress(progress, std::min(1.0, double(made++) / total), "drawing"))
@@ -37,8 +39,9 @@ Result<std::vector<std::filesystem::path>> writeProfile(const study::Profile& pr
     return pictures.picture(i);
   };
   if (auto done = writeGif(animation, steps); !done) return tl::unexpected(done.error());
-  if (auto done = png::write(hours, hoursPicture(scene, profile)); !done) return tl::unexpected(done.error());
-  if (auto done = png::write(path, shadowPicture(scene, profile)); !done) return tl::unexpected(done.error());
+  const auto remarks = detail::remarksOf(profile.ledger);
+  if (auto done = png::write(hours, hoursPicture(scene, profile), remarks); !done) return tl::unexpected(done.error());
+  if (auto done = png::write(path, shadowPicture(scene, profile), remarks); !done) return tl::unexpected(done.error());
   static_cast<void>(reportProgress(progress, 1.0, "drawing"));
   return std::vector{path, hours, animation};
 }

@@ -25,6 +25,8 @@ struct Instance {
   std::uint32_t mesh = 0;
   Mat4 toWorld{1.0};  ///< affine; may mirror and scale unevenly
   bool casts = true;  ///< false: it only receives shadows
+  /// The building (or bridge, ..) that this is a part of, by the name the file knows it by; empty where the file says nothing of the kind.
+  std::string group = {};
 };
 
 /// What a file (or a program) says about the world, in the file's own coordinates and units. Immutable once made: changes make

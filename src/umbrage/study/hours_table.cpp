@@ -39,16 +39,6 @@ Result<std::vector<TimeSpan>> daysOf(const HoursRequest& r, std::vector<std::str
   return days;
 }
 
-// What samples in the middles of steps say of exact stretches.
-double sampledHours(std::span<const TimeSpan> lit, const TimeSpan& day, milliseconds step) {
-  std::size_t count = 0, k = 0;
-  for (sun::Instant t = day.from + step / 2; t < day.to; t += step) {
-    while (k < lit.size() && lit[k].to <= t) ++k;
-    if (k < lit.size() && lit[k].from <= t) ++count;
-  }
-  return hoursOf(step) * double(count);
-}
-
 // One transparent part: how much it lets through, and when nothing of it is in the way.
 struct Pane {
   double transmittance;
@@ -80,6 +70,19 @@ Result<std::vector<Pane>> panesOf(const scene::Scene& scene, const sun::Place& p
   return panes;
 }
 
+bool within(std::span<const TimeSpan> spans, sun::Instant t) {
+  return std::any_of(spans.begin(), spans.end(), [&](const TimeSpan& s) { return s.from <= t && t < s.to; });
+}
+
+// What the panes in the way let through at a moment.
+double shareAt(sun::Instant t, const std::vector<Pane>& panes, const std::vector<SunHours>& open,
+               std::size_t receiver) {
+  double share = 1.0;
+  for (std::size_t p = 0; p < panes.size(); ++p)
+    if (!within(open[p].lit(receiver), t)) share *= panes[p].transmittance;
+  return share;
+}
+
 // Lit time, each moment weighted by what the panes in the way let through.
 double weightedHours(std::span<const TimeSpan> lit, const std::vector<Pane>& panes, const std::vector<SunHours>& open,
                      std::size_t receiver) {
@@ -88,18 +91,23 @@ double weightedHours(std::span<const TimeSpan> lit, const std::vector<Pane>& pan
   for (const SunHours& o : open)
     for (const TimeSpan& s : o.lit(receiver)) cuts.push_back(s.from), cuts.push_back(s.to);
   std::sort(cuts.begin(), cuts.end());
-  const auto within = [](std::span<const TimeSpan> spans, sun::Instant t) {
-    return std::any_of(spans.begin(), spans.end(), [&](const TimeSpan& s) { return s.from <= t && t < s.to; });
-  };
   double sum = 0.0;
-  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-    if (cuts[i] == cuts[i + 1] || !within(lit, cuts[i])) continue;
-    double share = 1.0;
-    for (std::size_t p = 0; p < panes.size(); ++p)
-      if (!within(open[p].lit(receiver), cuts[i])) share *= panes[p].transmittance;
-    sum += share * hoursOf(cuts[i + 1] - cuts[i]);
-  }
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+    if (cuts[i] < cuts[i + 1] && within(lit, cuts[i]))
+      sum += shareAt(cuts[i], panes, open, receiver) * hoursOf(cuts[i + 1] - cuts[i]);
   return sum;
+}
+
+// What samples in the middles of steps say of exact stretches.
+double sampledHours(std::span<const TimeSpan> lit, const std::vector<Pane>& panes, const std::vector<SunHours>& open,
+                    std::size_t receiver, const TimeSpan& day, milliseconds step) {
+  double count = 0.0;
+  std::size_t k = 0;
+  for (sun::Instant t = day.from + step / 2; t < day.to; t += step) {
+    while (k < lit.size() && lit[k].to <= t) ++k;
+    if (k < lit.size() && lit[k].from <= t) count += shareAt(t, panes, open, receiver);
+  }
+  return hoursOf(step) * count;
 }
 
 std::string clockText(const HoursRequest& r, const std::vector<TimeSpan>& days) {
@@ -109,8 +117,11 @@ std::string clockText(const HoursRequest& r, const std::vector<TimeSpan>& days) 
         !reading.abbreviation.empty() && std::isalpha(static_cast<unsigned char>(reading.abbreviation[0])) != 0;
     return "UTC" + sun::offsetText(reading.offset) + (lettered ? " (" + reading.abbreviation + ")" : "");
   };
-  const std::string first = offset(days.front().from), last = offset(days.back().to - milliseconds(1));
-  return first == last ? first : first + ", then " + last;
+  std::vector<std::string> all;  // in the order of the days, each once: a year begins and ends in winter
+  for (const TimeSpan& day : days)
+    for (const sun::Instant t : {day.from, day.to - milliseconds(1)})
+      if (const std::string text = offset(t); std::find(all.begin(), all.end(), text) == all.end()) all.push_back(text);
+  return fmt::format("{}", fmt::join(all, ", then "));
 }
 
 std::vector<LedgerLine> ledgerOf(const scene::Scene& scene, const HoursTable& t) {
@@ -118,26 +129,22 @@ std::vector<LedgerLine> ledgerOf(const scene::Scene& scene, const HoursTable& t)
   const std::string dates =
       sun::dateText(r.date) + (r.until ? fmt::format(" to {}, {} days", sun::dateText(*r.until), t.days.size()) : "");
   const char* transparent[] = {"taken as opaque", "ignored", "weighted by what they let through, each part once"};
-  return {
-      {"Place", placeText(r.place)},
-      {"Date", dates},
-      clockLine(r.zone, clockText(r, t.days)),
-      {"Period",
-       fmt::format("{} to {}; the sun is up for {:.3f} h", sun::timeText(r.from), sun::timeText(r.to), t.upHours)},
-      {"Sun", fmt::format("{} of the disc, {}, declination moving (ERFA), horizon at 0 degrees",
-                          r.model.point == SunPoint::centre ? "centre" : "upper limb",
-                          r.model.refraction == sun::Refraction::none ? "geometric (no refraction)"
-                                                                      : "with refraction (1010 hPa, 10 degrees C)")},
-      northLine(scene),
-      unitLine(scene),
-      {"Receivers", t.set.described},
-      castersLine(r.casters),
-      {"Opacity", fmt::format("surfaces that are not opaque: {}", transparent[static_cast<int>(r.transparent)])},
-      {"Time", r.sampled
-                   ? fmt::format("sampled every {:g} min, in the middles of steps", double(r.sampled->count()) / 60e3)
-                   : std::string("exact: solved for the moments at which edges uncover and cover the sun")},
-      inputLine(scene),
-      versionLine(r.sampled ? "sampled sun hours" : "exact sun hours")};
+  return {{"Place", placeText(r.place)},
+          {"Date", dates},
+          clockLine(r.zone, clockText(r, t.days)),
+          {"Period",
+           fmt::format("{} to {}; the sun is up for {:.3f} h", sun::timeText(r.from), sun::timeText(r.to), t.upHours)},
+          sunLine(r.model, "declination moving (ERFA), horizon at 0 degrees"),
+          northLine(scene),
+          unitLine(scene),
+          {"Receivers", t.set.described},
+          castersLine(r.casters),
+          {"Opacity", fmt::format("surfaces that are not opaque: {}", transparent[static_cast<int>(r.transparent)])},
+          {"Time",
+           r.sampled ? fmt::format("sampled every {:g} min, in the middles of steps", double(r.sampled->count()) / 60e3)
+                     : std::string("exact: solved for the moments at which edges uncover and cover the sun")},
+          inputLine(scene),
+          versionLine(r.sampled ? "sampled sun hours" : "exact sun hours", r.zone)};
 }
 
 }  // namespace
@@ -185,7 +192,7 @@ Result<HoursTable> sunHours(const scene::Scene& scene, ReceiverSet receivers, co
     }
     const auto date = std::chrono::year_month_day(sys_days(request.date) + std::chrono::days(d));
     for (std::size_t i = 0; i < count; ++i) {
-      const double hours = request.sampled ? sampledHours(lit->lit(i), out.days[d], *request.sampled)
+      const double hours = request.sampled ? sampledHours(lit->lit(i), panes, open, i, out.days[d], *request.sampled)
                            : panes.empty() ? hoursOf(lit->total(i))
                                            : weightedHours(lit->lit(i), panes, open, i);
       out.hours[i] += hours;
@@ -199,7 +206,8 @@ Result<HoursTable> sunHours(const scene::Scene& scene, ReceiverSet receivers, co
     if (keep) out.lit.push_back(std::move(*lit));
   }
   if (out.upHours == 0.0) out.warnings.push_back("the sun is below the horizon all the time, so all hours are 0");
-  if (out.days.size() == 1 && out.upHours >= hoursOf(out.days[0].length()) - 1e-6)
+  const bool wholeDay = request.from == milliseconds(0) && request.to >= std::chrono::hours(24);
+  if (out.days.size() == 1 && wholeDay && out.upHours >= hoursOf(out.days[0].length()) - 1e-6)
     out.warnings.push_back("the sun is up all the time");
   out.ledger = ledgerOf(scene, out);
   return out;

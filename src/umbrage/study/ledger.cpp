@@ -38,6 +38,17 @@ std::string clockText(const sun::Zone& zone, const std::string& offset) {
   return clock + ", " + offset;
 }
 
+// What the pixels of a profile stand for.
+std::string receiversText(const scene::Scene& scene) {
+  std::string text = "the surface that the middle of each pixel shows";
+  for (const scene::Instance& instance : scene.instances)
+    if (instance.name == scene::kGroundName && !instance.casts)
+      text += fmt::format("; ground at height {:g}",
+                          glm::dot(transformPoint(instance.toWorld, scene.meshes[instance.mesh]->positions.at(0)),
+                                   scene::upVector(scene.up)));
+  return text;
+}
+
 std::string castersText(const std::vector<std::string>& patterns) {
   if (patterns.empty()) return "everything but the ground";
   std::string text = "only";
@@ -56,8 +67,15 @@ std::string placeText(const sun::Place& place) {
 LedgerLine clockLine(const sun::Zone& zone, const std::string& offset) { return {"Clock", clockText(zone, offset)}; }
 LedgerLine northLine(const scene::Scene& scene) { return {"North", northText(scene)}; }
 LedgerLine castersLine(const std::vector<std::string>& patterns) { return {"Casters", castersText(patterns)}; }
-LedgerLine versionLine(const std::string& method) {
-  return {"Made by", fmt::format("Umbrage {}, {}", UMBRAGE_VERSION, method)};
+LedgerLine versionLine(const std::string& method, const sun::Zone& zone) {
+  return {"Made by", fmt::format("Umbrage {}, {}; {}", UMBRAGE_VERSION, method, sun::versions(zone))};
+}
+
+LedgerLine sunLine(const SunModel& model, const std::string& more) {
+  return {"Sun", fmt::format("{} of the disc, {}, {}", model.point == SunPoint::centre ? "centre" : "upper limb",
+                             model.refraction == sun::Refraction::none ? "geometric (no refraction)"
+                                                                       : "with refraction (1010 hPa, 10 degrees C)",
+                             more)};
 }
 
 LedgerLine unitLine(const scene::Scene& scene) {
@@ -79,13 +97,15 @@ std::vector<LedgerLine> ledgerOf(const scene::Scene& scene, const ProfileOptions
           {"Date", sun::dateText(period.date)},
           {"Clock", clockText(period.zone, steps.offset)},
           {"Period", periodText(period, steps)},
-          {"Sun", "centre of the disc, geometric (no refraction), declination moving, horizon at 0 degrees"},
-          {"North", northText(scene)},
-          {"Unit", fmt::format("1 unit of the file = {:g} m", scene.metresPerUnit)},
+          sunLine({}, "declination moving (ERFA), horizon at 0 degrees"),
+          northLine(scene),
+          unitLine(scene),
+          {"Receivers", receiversText(scene)},
           {"Casters", castersText(options.casters)},
           {"In shadow", "no direct sun: cast shadows and faces turned away; night counts as neither"},
           {"Time", "each step stands for the time of the period nearest to it"},
-          {"Made by", fmt::format("Umbrage {}, {}", UMBRAGE_VERSION, technique.name)}};
+          inputLine(scene),
+          versionLine(technique.name, period.zone)};
 }
 
 }  // namespace umbrage::study

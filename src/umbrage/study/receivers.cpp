@@ -9,6 +9,7 @@
 
 #include "umbrage/base/check.hpp"
 #include "umbrage/base/file.hpp"
+#include "umbrage/base/sha256.hpp"
 
 namespace umbrage::study {
 namespace {
@@ -37,6 +38,18 @@ Result<Lattice> latticeAround(const Box3& box, double step, double margin) {
   l.north = std::ceil((box.max.y + margin) / step) * step;
   const double columns = std::ceil((box.max.x + margin - l.west) / step - 1e-9),
                rows = std::ceil((l.north - box.min.y + margin) / step - 1e-9);
+  if (auto fits = checkCount(columns * rows); !fits) return tl::unexpected(fits.error());
+  l.columns = std::max(1, static_cast<int>(columns)), l.rows = std::max(1, static_cast<int>(rows));
+  l.receiver.assign(static_cast<std::size_t>(l.columns) * static_cast<std::size_t>(l.rows), -1);
+  return l;
+}
+
+// From the north-western corner on.
+Result<Lattice> latticeOver(const PlanExtent& extent, double step) {
+  Lattice l;
+  l.step = step, l.west = extent.west, l.north = extent.north;
+  const double columns = std::ceil((extent.east - extent.west) / step - 1e-6),
+               rows = std::ceil((extent.north - extent.south) / step - 1e-6);
   if (auto fits = checkCount(columns * rows); !fits) return tl::unexpected(fits.error());
   l.columns = std::max(1, static_cast<int>(columns)), l.rows = std::max(1, static_cast<int>(rows));
   l.receiver.assign(static_cast<std::size_t>(l.columns) * static_cast<std::size_t>(l.rows), -1);
@@ -74,6 +87,9 @@ void forTriangles(const scene::Scene& scene, const scene::Instance& instance, Fn
   }
 }
 
+// Of the largest coordinate: what four operations in double precision can move a point by.
+constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+
 // The highest surface in each cell's middle, and the way it faces, upwards.
 struct Tops {
   std::vector<double> height;
@@ -89,19 +105,64 @@ void addTop(const Lattice& l, const Vec3& a, const Vec3& b, const Vec3& c, Tops&
   const int right = std::min(l.columns - 1, cell((std::max({a.x, b.x, c.x}) - l.west) / l.step + 0.5));
   const int top = std::max(0, cell((l.north - std::max({a.y, b.y, c.y})) / l.step - 0.5));
   const int bottom = std::min(l.rows - 1, cell((l.north - std::min({a.y, b.y, c.y})) / l.step + 0.5));
-  const auto side = [](const Vec3& p, const Vec3& q, const Vec2& at) {
-    return (q.x - p.x) * (at.y - p.y) - (q.y - p.y) * (at.x - p.x);
+  // Cells' middles are often corners of a raster's surface: one within rounding of an edge is on it, so that it falls into no gap.
+  const double near = kRounding * std::max({std::abs(a.x), std::abs(a.y), std::abs(l.west), std::abs(l.north)});
+  const auto side = [&](const Vec3& p, const Vec3& q, const Vec2& at) {
+    const double across = (q.x - p.x) * (at.y - p.y) - (q.y - p.y) * (at.x - p.x);
+    return std::abs(across) <= near * std::hypot(q.x - p.x, q.y - p.y) ? 0.0 : across;
   };
+  const double lowest = std::min({a.z, b.z, c.z}), highest = std::max({a.z, b.z, c.z});
   for (int row = top; row <= bottom; ++row)
     for (int column = left; column <= right; ++column) {
       const Vec2 at = middleOf(l, column, row);
       const double u = side(a, b, at), v = side(b, c, at), w = side(c, a, at);
       if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0))) continue;
-      const double z = a.z - ((at.x - a.x) * normal.x + (at.y - a.y) * normal.y) / normal.z;
+      const double plane = a.z - ((at.x - a.x) * normal.x + (at.y - a.y) * normal.y) / normal.z;
+      const double z = std::clamp(plane, lowest, highest);
       const auto i =
           static_cast<std::size_t>(row) * static_cast<std::size_t>(l.columns) + static_cast<std::size_t>(column);
       if (z > tops.height[i]) tops.height[i] = z, tops.normal[i] = normal;
     }
+}
+
+Box3 boxInPlan(const scene::Scene& scene, const std::vector<const scene::Instance*>& parts) {
+  const Plan plan(scene);
+  Box3 box;
+  for (const auto* part : parts)
+    forTriangles(scene, *part, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+      for (const Vec3& p : {a, b, c}) box.add(plan.flat(p));
+    });
+  return box;
+}
+
+tl::unexpected<Error> noMiddles(const scene::Scene& scene, double step) {
+  return fail(ErrorCode::usage, fmt::format("no cell of {:g} has its middle on the surface; take smaller steps", step),
+              scene.source);
+}
+
+enum class Facing { up, asTheSurface };
+
+// A receiver in each cell whose middle lies over the parts.
+ReceiverSet layOn(const scene::Scene& scene, const std::vector<const scene::Instance*>& parts, Lattice lattice,
+                  double above, Facing facing) {
+  const Plan plan(scene);
+  Tops tops{std::vector<double>(lattice.receiver.size(), -std::numeric_limits<double>::infinity()),
+            std::vector<Vec3>(lattice.receiver.size())};
+  for (const auto* part : parts)
+    forTriangles(scene, *part, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+      addTop(lattice, plan.flat(a), plan.flat(b), plan.flat(c), tops);
+    });
+  ReceiverSet set;
+  for (std::size_t i = 0; i < tops.height.size(); ++i) {
+    if (!std::isfinite(tops.height[i])) continue;
+    lattice.receiver[i] = static_cast<std::int32_t>(set.receivers.size());
+    const auto columns = static_cast<std::size_t>(lattice.columns);
+    const Vec2 at = middleOf(lattice, static_cast<int>(i % columns), static_cast<int>(i / columns));
+    set.receivers.push_back({plan.world({at.x, at.y, tops.height[i] + above}),
+                             facing == Facing::up ? plan.up : plan.world(tops.normal[i])});
+  }
+  set.lattice = std::move(lattice);
+  return set;
 }
 
 // One point for each square of the side `step`, by a lattice of as many parts along two edges.
@@ -144,32 +205,28 @@ Result<ReceiverSet> planeReceivers(const scene::Scene& scene, double step, doubl
 Result<ReceiverSet> groundReceivers(const scene::Scene& scene, const std::vector<std::string>& patterns, double step,
                                     double above) {
   UMBRAGE_CHECK(step > 0.0, "a grid's step is a length");
-  const Plan plan(scene);
   const auto parts = matching(scene, patterns);
-  Box3 box;
-  for (const auto* part : parts)
-    forTriangles(scene, *part, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-      for (const Vec3& p : {a, b, c}) box.add(plan.flat(p));
-    });
+  const Box3 box = boxInPlan(scene, parts);
   if (box.empty()) return fail(ErrorCode::usage, "no part is named " + named(patterns), scene.source);
   auto lattice = latticeAround(box, step, 0.0);
   if (!lattice) return tl::unexpected(lattice.error());
-  Tops tops{std::vector<double>(lattice->receiver.size(), -std::numeric_limits<double>::infinity()),
-            std::vector<Vec3>(lattice->receiver.size())};
-  for (const auto* part : parts)
-    forTriangles(scene, *part, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-      addTop(*lattice, plan.flat(a), plan.flat(b), plan.flat(c), tops);
-    });
-  ReceiverSet set;
-  for (std::size_t i = 0; i < tops.height.size(); ++i) {
-    if (!std::isfinite(tops.height[i])) continue;
-    lattice->receiver[i] = static_cast<std::int32_t>(set.receivers.size());
-    const auto columns = static_cast<std::size_t>(lattice->columns);
-    const Vec2 at = middleOf(*lattice, static_cast<int>(i % columns), static_cast<int>(i / columns));
-    set.receivers.push_back({plan.world({at.x, at.y, tops.height[i] + above}), plan.world(tops.normal[i])});
-  }
+  ReceiverSet set = layOn(scene, parts, std::move(*lattice), above, Facing::asTheSurface);
+  if (set.receivers.empty()) return noMiddles(scene, step);
   set.described = fmt::format("grid of {:g} on the highest surface of {}, {:g} above it", step, named(patterns), above);
-  set.lattice = std::move(*lattice);
+  return set;
+}
+
+Result<ReceiverSet> rasterReceivers(const scene::Scene& scene, const std::optional<PlanExtent>& extent, double step,
+                                    double above) {
+  UMBRAGE_CHECK(step > 0.0, "a grid's step is a length");
+  const auto parts = matching(scene, {"*"});
+  const Box3 box = boxInPlan(scene, parts);
+  if (box.empty()) return fail(ErrorCode::input, "has no cells with a height, so there is no ground", scene.source);
+  auto lattice = extent ? latticeOver(*extent, step) : latticeAround(box, step, 0.0);
+  if (!lattice) return tl::unexpected(lattice.error());
+  ReceiverSet set = layOn(scene, parts, std::move(*lattice), above, Facing::up);
+  if (set.receivers.empty()) return noMiddles(scene, step);
+  set.described = fmt::format("grid of {:g} on the raster's surface, {:g} above it, facing up", step, above);
   return set;
 }
 
@@ -232,7 +289,8 @@ Result<ReceiverSet> readReceivers(const std::filesystem::path& path) {
     if (set.receivers.size() > kMostReceivers) return wrong("these are too many points");
   }
   if (line == 0) return wrong("the file is empty; the header x,y,z,nx,ny,nz is wanted");
-  set.described = fmt::format("{} points of {}, where they are", set.receivers.size(), path.filename().string());
+  set.described = fmt::format("{} points of {}, where they are, SHA-256 {}", set.receivers.size(),
+                              path.filename().string(), sha256(*bytes));
   return set;
 }
 

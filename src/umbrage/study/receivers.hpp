@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,23 @@ inline constexpr std::size_t kMostReceivers = 50'000'000;
 [[nodiscard]] Result<ReceiverSet> planeReceivers(const scene::Scene& scene, double step, double height);
 
 /// The same on the highest surface of the parts that match a pattern (scene::matchesName), `above` it.
-/// Errors: usage (nothing matches, or more than kMostReceivers).
+/// Errors: usage (nothing matches, no middle of a cell is on it, or more than kMostReceivers).
 [[nodiscard]] Result<ReceiverSet> groundReceivers(const scene::Scene& scene, const std::vector<std::string>& patterns,
+                                                  double step, double above);
+
+/// A rectangle in plan, in the scene's unit, by the directions of Lattice.
+struct PlanExtent {
+  double west = 0.0, south = 0.0, east = 0.0, north = 0.0;
+};
+
+/// How far above a raster's surface receivers stand unless asked otherwise, in metres: the middle of a cell is a corner of the surface, where
+/// "behind the slope" has no meaning.
+inline constexpr double kAboveRaster = 0.01;
+
+/// The same on the whole surface of a height raster, `above` it, facing up as in terrain::terrainHours. Cells begin at the north-western
+/// corner of `extent`, the raster's outer edges, so that steps of the raster's own cells are its cells; without one, at whole steps.
+/// REQUIRES: step > 0. Errors: input (no heights), usage (no middle of a cell is on it, or more than kMostReceivers).
+[[nodiscard]] Result<ReceiverSet> rasterReceivers(const scene::Scene& scene, const std::optional<PlanExtent>& extent,
                                                   double step, double above);
 
 /// Points on all faces of the parts that match, one for each square of side `step` and at least one a face; they face outwards where the

@@ -1,6 +1,7 @@
 #include "umbrage/sun/zone.hpp"
 
 #include <date/tz.h>
+#include <erfaextra.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <exception>
+#include <fstream>
 
 namespace umbrage::sun {
 namespace {
@@ -146,6 +148,20 @@ ClockReading solarClock(const Place& place, Instant instant) {
   return reading(instant, milliseconds(std::llround(offsetHours * 3.6e6)));
 }
 
+// "2025b"; empty where the system does not say. Its own files carry the release in the first line of one of them.
+std::string releaseOfZones() {
+  try {
+    if (const std::string known = date::get_tzdb().version; !known.empty() && known != "unknown") return known;
+  } catch (const std::exception&) {
+    return {};
+  }
+  constexpr std::string_view kBefore = "# version ";
+  std::ifstream file("/usr/share/zoneinfo/tzdata.zi");
+  std::string line;
+  std::getline(file, line);
+  return line.starts_with(kBefore) && line.size() < 40 ? line.substr(kBefore.size()) : std::string();
+}
+
 }  // namespace
 
 Result<Zone> parseZone(std::string_view text) {
@@ -154,6 +170,10 @@ Result<Zone> parseZone(std::string_view text) {
   if (!text.empty() && (text[0] == '+' || text[0] == '-')) return parseOffset(text);
   try {
     const auto& zones = date::get_tzdb().zones;
+    if (zones.empty())
+      return fail(ErrorCode::usage, fmt::format("time zone '{}' is not known, for this system has no time zone data "
+                                                "(Debian: the package tzdata); +HH:MM and 'solar' work without them",
+                                                text));
     const bool known = std::any_of(zones.begin(), zones.end(), [&](const auto& zone) { return zone.name() == text; });
     if (known) {
       const Zone zone{Zone::Kind::named, std::string(text), {}};
@@ -169,6 +189,13 @@ Result<Zone> parseZone(std::string_view text) {
                                               "'solar' work without it",
                                               text, fault.what()));
   }
+}
+
+std::string versions(const Zone& zone) {
+  std::string text = std::string("ERFA ") + eraVersion();
+  if (zone.kind != Zone::Kind::named) return text;
+  const std::string release = releaseOfZones();
+  return text + ", tzdata " + (release.empty() ? "of an unknown release" : release);
 }
 
 Result<year_month_day> parseDate(std::string_view text) {

@@ -32,6 +32,9 @@ struct Moment {
   std::optional<std::string> warning;
 };
 
+/// What times rest on, for ledgers: "ERFA 2.0.0", and for named zones the release of the time zones too, "tzdata 2025b".
+[[nodiscard]] std::string versions(const Zone& zone);
+
 /// What a clock shows at an instant.
 struct ClockReading {
   ClockTime clock;

@@ -65,6 +65,12 @@ TEST(Places, HaveLimits) {
   EXPECT_FALSE(makePlace(std::nan(""), 0));
 }
 
+TEST(Versions, NameTheTimeZonesOnlyWhereTheyCount) {
+  EXPECT_EQ(versions(*parseZone("solar")).find("tzdata"), std::string::npos);
+  EXPECT_EQ(versions(*parseZone("+01:00")).find("ERFA "), 0U);
+  EXPECT_NE(versions(*parseZone("Europe/Vienna")).find(", tzdata "), std::string::npos);
+}
+
 TEST(LocalTime, FollowsTheZoneInBothHemispheres) {
   EXPECT_EQ(instantAt("Europe/Vienna", "2026-09-18", "12:00"), utc("2026-09-18", "10:00"));
   EXPECT_EQ(instantAt("Europe/Vienna", "2026-01-18", "12:00"), utc("2026-01-18", "11:00"));

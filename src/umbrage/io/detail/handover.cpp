@@ -147,12 +147,13 @@ scene::Scene unpackScene(Unpacker& in) {
     s.materials.push_back(std::move(m));
   }
   for (std::size_t n = in.count(32); n > 0 && in.ok(); --n) s.meshes.push_back(unpackMesh(in));
-  for (std::size_t n = in.count(144); n > 0 && in.ok(); --n) {
+  for (std::size_t n = in.count(152); n > 0 && in.ok(); --n) {
     scene::Instance i;
     i.name = in.text();
     i.mesh = in.value<std::uint32_t>();
     i.casts = in.value<std::uint32_t>() != 0;
     i.toWorld = in.value<Mat4>();
+    i.group = in.text();
     s.instances.push_back(std::move(i));
   }
   for (std::size_t n = in.count(68); n > 0 && in.ok(); --n) s.lights.push_back(unpackLight(in));
@@ -220,6 +221,7 @@ std::vector<std::byte> pack(const scene::Scene& scene) {
     out.value(i.mesh);
     out.value<std::uint32_t>(i.casts ? 1 : 0);
     out.value(i.toWorld);
+    out.text(i.group);
   }
   out.value<std::uint64_t>(scene.lights.size());
   for (const scene::Light& light : scene.lights) packLight(out, light);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <unordered_map>
 
 #include "umbrage/geo/projection.hpp"
 #include "umbrage/io/reader/city_mesh.hpp"
@@ -50,6 +51,52 @@ double lodNumber(const std::string& lod) {
   return value;
 }
 
+// Where an object stands among the others.
+struct Ancestry {
+  std::string path;  // the ancestors' names, outermost first
+  std::string
+      group;  // the building, bridge, .. it belongs to: its outermost ancestor that is no mere collection, or itself
+};
+
+// Who is whose parent: by what children say of their parents, else by what parents say of their children. Collections
+// (CityObjectGroup) are parents only where their members say so themselves.
+class Family {
+ public:
+  explicit Family(const Json& objects) : objects_(objects) {
+    for (const auto& [id, object] : objects.items())
+      if (!isCollection(id))
+        for (const Json& child : member(object, "children")) parents_.try_emplace(textOf(child), id);
+  }
+  [[nodiscard]] Ancestry of(const std::string& id) const;
+
+ private:
+  [[nodiscard]] bool isCollection(const std::string& id) const {
+    return textOf(member(member(objects_, id.c_str()), "type")) == "CityObjectGroup";
+  }
+  [[nodiscard]] std::string parentOf(const std::string& id) const {
+    const std::string named = textOf(element(member(member(objects_, id.c_str()), "parents"), 0));
+    if (!named.empty()) return named;
+    const auto known = parents_.find(id);
+    return known == parents_.end() ? std::string() : known->second;
+  }
+  const Json& objects_;
+  std::unordered_map<std::string, std::string> parents_;
+};
+
+// Parents that lead back to where one came from end the path.
+Ancestry Family::of(const std::string& id) const {
+  std::vector<std::string> names = {id};
+  Ancestry ancestry{{}, id};
+  while (names.size() < kMaxHierarchy) {
+    const std::string parent = parentOf(names.back());
+    if (parent.empty() || std::find(names.begin(), names.end(), parent) != names.end()) break;
+    names.push_back(parent);
+    if (!isCollection(parent)) ancestry.group = parent;
+  }
+  for (auto name = names.rbegin(); name != names.rend(); ++name) ancestry.path = childPath(ancestry.path, *name);
+  return ancestry;
+}
+
 class CityReader {
  public:
   explicit CityReader(std::optional<std::string> lod) : lod_(std::move(lod)), materials_(scene_.materials) {}
@@ -64,8 +111,8 @@ class CityReader {
   using Chosen = std::vector<const Json*>;
   [[nodiscard]] std::string lodOf(const Json& geometry) const;
   [[nodiscard]] Chosen chooseGeometries(const Json& object);
-  void addObject(const std::string& path, const Json& object, const std::vector<Vec3>& vertices);
-  void addInstance(const std::string& path, const Json& geometry, const std::string& objectType,
+  void addObject(const Ancestry& ancestry, const Json& object, const std::vector<Vec3>& vertices);
+  void addInstance(const Ancestry& ancestry, const Json& geometry, const std::string& objectType,
                    const std::vector<Vec3>& vertices);
   [[nodiscard]] std::optional<std::uint32_t> templateMesh(std::size_t index, const std::string& objectType);
 
@@ -82,7 +129,8 @@ class CityReader {
 };
 
 Result<void> CityReader::begin(const Json& document) {
-  if (textOf(member(document, "type")) != "CityJSON") return fail(ErrorCode::input, "is not CityJSON: its \"type\" is not \"CityJSON\"");
+  if (textOf(member(document, "type")) != "CityJSON")
+    return fail(ErrorCode::input, "is not CityJSON: its \"type\" is not \"CityJSON\"");
   scene_.up = scene::UpAxis::z;
   scene_.crs = geo::shortName(textOf(member(member(document, "metadata"), "referenceSystem")));
   transform_ = transformOf(document);
@@ -93,23 +141,11 @@ Result<void> CityReader::begin(const Json& document) {
   return {};
 }
 
-// The parents' names, outermost first. Parents that lead back to where one came from end the path.
-std::string pathOf(const Json& objects, const std::string& id) {
-  std::vector<std::string> names = {id};
-  while (names.size() < kMaxHierarchy) {
-    const std::string parent = textOf(element(member(member(objects, names.back().c_str()), "parents"), 0));
-    if (parent.empty() || std::find(names.begin(), names.end(), parent) != names.end()) break;
-    names.push_back(parent);
-  }
-  std::string path;
-  for (auto name = names.rbegin(); name != names.rend(); ++name) path = childPath(path, *name);
-  return path;
-}
-
 void CityReader::addObjects(const Json& objects, const Json& vertexList) {
   if (!objects.is_object()) return;
   const std::vector<Vec3> vertices = verticesOf(vertexList, transform_);
-  for (const auto& [id, object] : objects.items()) addObject(pathOf(objects, id), object, vertices);
+  const Family family(objects);
+  for (const auto& [id, object] : objects.items()) addObject(family.of(id), object, vertices);
 }
 
 std::string CityReader::lodOf(const Json& geometry) const {
@@ -137,7 +173,7 @@ CityReader::Chosen CityReader::chooseGeometries(const Json& object) {
   return chosen;
 }
 
-void CityReader::addObject(const std::string& path, const Json& object, const std::vector<Vec3>& vertices) {
+void CityReader::addObject(const Ancestry& ancestry, const Json& object, const std::vector<Vec3>& vertices) {
   if (!object.is_object()) {
     ++objectsMalformed_;
     return;
@@ -146,14 +182,15 @@ void CityReader::addObject(const std::string& path, const Json& object, const st
   CityMesh builder(vertices, materials_, counts_);
   for (const Json* geometry : chooseGeometries(object)) {
     if (textOf(member(*geometry, "type")) == "GeometryInstance")
-      addInstance(path, *geometry, type, vertices);
+      addInstance(ancestry, *geometry, type, vertices);
     else
       builder.add(*geometry, type);
   }
   mesh::Mesh m = builder.take();
   if (m.triangles.empty()) return;
-  m.name = path;
-  scene_.instances.push_back({path, static_cast<std::uint32_t>(scene_.meshes.size()), Mat4(1.0), true});
+  m.name = ancestry.path;
+  scene_.instances.push_back(
+      {ancestry.path, static_cast<std::uint32_t>(scene_.meshes.size()), Mat4(1.0), true, ancestry.group});
   scene_.meshes.push_back(std::make_shared<const mesh::Mesh>(std::move(m)));
 }
 
@@ -173,7 +210,7 @@ std::optional<Mat4> placement(const Json& geometry, const std::vector<Vec3>& ver
   return m;
 }
 
-void CityReader::addInstance(const std::string& path, const Json& geometry, const std::string& objectType,
+void CityReader::addInstance(const Ancestry& ancestry, const Json& geometry, const std::string& objectType,
                              const std::vector<Vec3>& vertices) {
   const auto index = indexOf(member(geometry, "template"));
   const auto mesh = index ? templateMesh(*index, objectType) : std::nullopt;
@@ -182,7 +219,7 @@ void CityReader::addInstance(const std::string& path, const Json& geometry, cons
     ++instancesDropped_;
     return;
   }
-  scene_.instances.push_back({path, *mesh, *where, true});
+  scene_.instances.push_back({ancestry.path, *mesh, *where, true, ancestry.group});
 }
 
 std::optional<std::uint32_t> CityReader::templateMesh(std::size_t index, const std::string& objectType) {

@@ -91,13 +91,24 @@ bool isSimple(const Footprint& footprint) {
   return polygon && GEOSisValid_r(context.get(), polygon.get()) == 1;
 }
 
+// Ring by ring: mended together, what of a hole lies outside the outer ring would become a building.
 std::vector<Footprint> untangle(const Footprint& footprint) {
   const GeosContext context(GEOS_init_r());
-  const GeosGeometry polygon = geosPolygon(context.get(), footprint);
-  if (!polygon) return {};
-  const GeosGeometry valid(GEOSMakeValid_r(context.get(), polygon.get()), DestroyGeometry{context.get()});
+  const DestroyGeometry destroy{context.get()};
+  const auto area = [&](const Ring& ring) {
+    const GeosGeometry polygon = geosPolygon(context.get(), {ring});
+    GeosGeometry valid(polygon ? GEOSMakeValid_r(context.get(), polygon.get()) : nullptr, destroy);
+    // Areas with spikes, of which there can be no difference: a buffer of nothing leaves the areas.
+    if (valid && GEOSGeomTypeId_r(context.get(), valid.get()) == GEOS_GEOMETRYCOLLECTION)
+      valid = GeosGeometry(GEOSBuffer_r(context.get(), valid.get(), 0.0, 8), destroy);
+    return valid;
+  };
+  GeosGeometry whole = area(footprint.front());
+  for (std::size_t i = 1; i < footprint.size() && whole; ++i)
+    if (const GeosGeometry hole = area(footprint[i]))
+      whole = GeosGeometry(GEOSDifference_r(context.get(), whole.get(), hole.get()), destroy);
   std::vector<Footprint> footprints;
-  if (valid) collectPolygons(context.get(), valid.get(), footprints);
+  if (whole) collectPolygons(context.get(), whole.get(), footprints);
   return footprints;
 }
 

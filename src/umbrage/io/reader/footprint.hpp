@@ -16,7 +16,7 @@ using Footprint = std::vector<std::vector<Vec2>>;
 /// No ring crosses or touches itself along a line, holes lie inside.
 [[nodiscard]] bool isSimple(const Footprint& footprint);
 
-/// The areas that the rings of a crossing footprint enclose, as simple footprints; none where they enclose none.
+/// What the outer ring of a crossing footprint encloses without what its holes enclose, as simple footprints; none where that is none.
 [[nodiscard]] std::vector<Footprint> untangle(const Footprint& footprint);
 
 /// Adds the closed prism over a simple footprint from `base` to `top`, wound outwards.

@@ -14,6 +14,8 @@ namespace {
 // A footprint of 0.2 degrees is 20 km wide; one of 10 cm is no building.
 constexpr double kLargestDegrees = 0.2;
 constexpr double kSmallestMetres = 0.1;
+// A cell of a hundredth of a degree is a kilometre wide; one of a centimetre is as fine as any survey.
+constexpr double kSmallestCell = 0.01;
 // Beyond this from the middle the local projection stretches lengths by more than 1e-4.
 constexpr double kLocalReach = 90e3;
 constexpr double kEarthRadius = 6371e3;
@@ -124,16 +126,36 @@ Result<MapFrame> placeOnMap(const MapClaim& claim, std::span<Vec2> points, doubl
   return projectDegrees(points);
 }
 
-Result<void> checkLengths(const scene::Scene& scene) {
-  if (scene.crs.empty()) return {};
-  const auto projection = geo::Projection::make(scene.crs);
-  if (!projection) return {};  // a name for people, not a reference system
-  if (projection->isGeographic())
-    return fail(
-        ErrorCode::unsupported,
-        fmt::format("has coordinates in degrees ({}), which are no lengths; convert it to a map's metres, or say what "
-                    "they are with --crs",
-                    scene.crs));
+Result<void> checkCells(const MapClaim& claim, const MapFrame& frame, const Extent& extent, double cell,
+                        double relief) {
+  const double side = cell * frame.metresPerUnit, width = extent.size() * frame.metresPerUnit;
+  if (!fitsDegrees(extent) || side > kSmallestCell || relief <= width) return {};
+  return fail(
+      ErrorCode::input,
+      fmt::format("has coordinates that look like degrees, though {} says nothing of the kind{}: its cells would "
+                  "be {:.2g} mm wide, all of it {:.2g} m, beside heights that differ by {:.2g} m; if they are "
+                  "longitude and latitude, say so: --crs EPSG:4326; if not: --crs local",
+                  claim.from, claim.crs.empty() ? "" : " (" + claim.crs + ")", side * 1e3, width, relief));
+}
+
+Result<void> checkLengths(const scene::Scene& scene, const std::string& metric) {
+  MapClaim claim{scene.crs, "its reference system"};
+  double unit = 1.0;
+  if (scene.crs.empty()) {
+    if (metric.empty()) return {};
+    claim.from = metric;
+  } else {
+    const auto projection = geo::Projection::make(scene.crs);
+    if (!projection) return {};  // a name for people, not a reference system
+    if (projection->isGeographic())
+      return fail(
+          ErrorCode::unsupported,
+          fmt::format(
+              "has coordinates in degrees ({}), which are no lengths; convert it to a map's metres, or say what "
+              "they are with --crs",
+              scene.crs));
+    unit = projection->metresPerUnit();
+  }
   Extent whole;
   double largest = 0.0;
   for (const scene::Instance& instance : scene.instances) {
@@ -144,9 +166,7 @@ Result<void> checkLengths(const scene::Scene& scene) {
     whole.add(extent.max);
     largest = std::max(largest, extent.size());
   }
-  const MapClaim claim{scene.crs, "its reference system"};
-  if (const auto doubt = doubtLengths(whole, largest, projection->metresPerUnit(), claim))
-    return tl::unexpected(*doubt);
+  if (const auto doubt = doubtLengths(whole, largest, unit, claim)) return tl::unexpected(*doubt);
   return {};
 }
 

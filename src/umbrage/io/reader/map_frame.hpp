@@ -42,7 +42,13 @@ struct Extent {
 /// degrees), where the reference system is not known or PROJ's data are missing.
 [[nodiscard]] Result<MapFrame> placeOnMap(const MapClaim& claim, std::span<Vec2> points, double typicalSize);
 
-/// Refuses a scene of another format whose reference system is in degrees, or whose parts are so small that they must be.
-[[nodiscard]] Result<void> checkLengths(const scene::Scene& scene);
+/// Refuses a raster whose coordinates are said to be lengths and cannot be: cells of at most a centimetre in the range of degrees, and
+/// `relief`, the difference of its heights in metres, larger than all of it is wide.
+[[nodiscard]] Result<void> checkCells(const MapClaim& claim, const MapFrame& frame, const Extent& extent, double cell,
+                                      double relief);
+
+/// Refuses a scene of another format whose reference system is in degrees, or whose parts are so small that they must be. Without a
+/// reference system only where the format demands metres, `metric`: it is named in the message.
+[[nodiscard]] Result<void> checkLengths(const scene::Scene& scene, const std::string& metric = {});
 
 }  // namespace umbrage::io::reader

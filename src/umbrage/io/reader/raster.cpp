@@ -140,6 +140,16 @@ Result<MapClaim> claimOf(const Raster& raster, const detail::Hints& hints) {
   return MapClaim{raster.crs(), "its georeference"};
 }
 
+// Projected degrees have a frame of their own and are lengths by now; who says --crs local means it.
+Result<void> checkRaster(const Raster& raster, const MapClaim& claim, const MapFrame& frame, const Heights& heights) {
+  if (frame.crs != claim.crs || (claim.crs.empty() && claim.from == "--crs")) return {};
+  Extent extent;
+  extent.add(raster.place(0, 0));
+  extent.add(raster.place(raster.columns(), raster.rows()));
+  const double cell = glm::length(raster.place(1, 0) - raster.place(0, 0));
+  return checkCells(claim, frame, extent, cell, (heights.highest - heights.lowest) * frame.metresPerUnit);
+}
+
 scene::Scene emptyScene(const MapFrame& frame) {
   scene::Scene scene;
   scene.up = scene::UpAxis::z;
@@ -159,6 +169,7 @@ Result<scene::Scene> inspected(const Raster& raster, const MapClaim& claim) {
   const auto heights = heightsOf(raster, {0, 0, raster.columns(), raster.rows()});
   if (!heights) return tl::unexpected(heights.error());
   if (!(heights->lowest <= heights->highest)) return fail(ErrorCode::input, "has no cell with a height");
+  if (auto fine = checkRaster(raster, claim, *frame, *heights); !fine) return tl::unexpected(fine.error());
   const double* f = raster.frame();
   auto mesh = std::make_shared<mesh::Mesh>();
   mesh->positions = {{raster.columns(), raster.rows(), 0},
@@ -263,6 +274,8 @@ Result<scene::Scene> surfaceOf(const Raster& raster, const Window& window, const
   }
   const auto frame = placeOnMap(claim, surface.places, 0.0);
   if (!frame) return tl::unexpected(frame.error());
+  if (reach == nullptr)
+    if (auto fine = checkRaster(raster, claim, *frame, heights); !fine) return tl::unexpected(fine.error());
   for (std::size_t i = 0; i < surface.places.size(); ++i)
     surface.mesh.positions[i] = Vec3(surface.places[i], surface.mesh.positions[i].z);
   scene::Scene scene = emptyScene(*frame);

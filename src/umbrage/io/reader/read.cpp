@@ -20,8 +20,8 @@ Result<scene::Scene> readAs(const Request& request, detail::Format format) {
 }
 
 bool isDouble(detail::Format format) {
-  return format == detail::Format::cityJson || format == detail::Format::cityJsonSeq || format == detail::Format::gltf ||
-         format == detail::Format::geoJson;
+  return format == detail::Format::cityJson || format == detail::Format::cityJsonSeq ||
+         format == detail::Format::gltf || format == detail::Format::geoJson;
 }
 
 // Degrees were made metres, so that the file's own reference system is no longer the scene's.
@@ -37,7 +37,9 @@ Result<scene::Scene> read(const Request& request) {
   scene::Scene tidied = tidy(std::move(*scene));
   if (request.hints.crs && !isProjectedHere(tidied))
     tidied.crs = *request.hints.crs == "local" ? "" : geo::shortName(*request.hints.crs);
-  if (auto fine = checkLengths(tidied); !fine) return tl::unexpected(fine.error());
+  const bool inMetres = *format == detail::Format::cityJson || *format == detail::Format::cityJsonSeq;
+  if (auto fine = checkLengths(tidied, inMetres && !request.hints.crs ? "CityJSON" : ""); !fine)
+    return tl::unexpected(fine.error());
   if (!isDouble(*format)) warnOfCoarseness(tidied);
   return tidied;
 }

@@ -158,6 +158,21 @@ double Canvas::text(double x, double y, std::string_view text, const TextStyle& 
   return width;
 }
 
+// A word too long for a line, such as a hash, is broken where the line ends; characters stay whole.
+void Canvas::breakWord(std::string& word, double width, const TextStyle& style, std::vector<std::string>& lines) const {
+  while (textWidth(word, style) > width) {
+    std::size_t fits = 0, next = 0;
+    do {
+      fits = next;
+      next += std::max<std::size_t>(1, characterLength(std::string_view(word).substr(next)));
+    } while (next < word.size() && textWidth(std::string_view(word).substr(0, next), style) <= width);
+    if (fits == 0) fits = next;
+    if (fits >= word.size()) return;
+    lines.push_back(word.substr(0, fits));
+    word.erase(0, fits);
+  }
+}
+
 std::vector<std::string> Canvas::wrap(std::string_view text, double width, const TextStyle& style) const {
   std::vector<std::string> lines;
   std::string line;
@@ -171,6 +186,7 @@ std::vector<std::string> Canvas::wrap(std::string_view text, double width, const
     } else {
       line = longer;
     }
+    breakWord(line, width, style, lines);
     begin = end + 1;
   }
   lines.push_back(std::move(line));

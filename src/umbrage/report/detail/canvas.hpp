@@ -40,12 +40,13 @@ class Canvas {
   /// Draws on the baseline y; returns the width. UTF-8; what is not printable becomes '?'.
   double text(double x, double y, std::string_view text, const TextStyle& style, Align align = Align::left);
   [[nodiscard]] double textWidth(std::string_view text, const TextStyle& style) const;
-  /// Lines of words no wider than `width`.
+  /// Lines no wider than `width`, of whole words where they fit.
   [[nodiscard]] std::vector<std::string> wrap(std::string_view text, double width, const TextStyle& style) const;
 
   [[nodiscard]] image::RgbImage picture() const;
 
  private:
+  void breakWord(std::string& word, double width, const TextStyle& style, std::vector<std::string>& lines) const;
   struct Destroy {
     void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
     void operator()(cairo_t* context) const { cairo_destroy(context); }

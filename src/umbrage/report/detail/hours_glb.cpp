@@ -48,7 +48,7 @@ std::string hoursGlb(const study::HoursTable& table, const scene::Scene& scene) 
   Box3 box;
   for (const study::Receiver& r : receivers) box.add(r.position);
   const Vec3 middle = receivers.empty() ? Vec3(0.0) : glm::round(box.centre());
-  const double most = scaleTop(table);
+  const double most = scaleOf(table).top;
   std::string positions, colours, hours, indices;
   Vec3f low(1e30f), high(-1e30f);
   for (std::size_t i = 0; i < receivers.size(); ++i) {

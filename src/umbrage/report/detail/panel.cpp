@@ -58,22 +58,29 @@ void Panel::paragraph(const std::string& text) {
 
 void Panel::bar(std::size_t cells, const std::function<image::Rgb8(std::size_t)>& colour,
                 const std::vector<Tick>& ticks) {
-  const double height = 16.0 * scale_, top = y_ + 4.0 * scale_;
+  const double height = std::round(16.0 * scale_), top = std::round(y_ + 4.0 * scale_);
   for (std::size_t i = 0; i < cells; ++i) {
-    const double begin = std::round(width_ * double(i) / double(cells)),
-                 end = std::round(width_ * double(i + 1) / double(cells));
-    canvas_.fillRect(left_ + begin, top, end - begin, height, colour(i));
+    // Whole pixels of the picture, or the joints would shine through.
+    const double begin = std::round(left_ + width_ * double(i) / double(cells)),
+                 end = std::round(left_ + width_ * double(i + 1) / double(cells));
+    canvas_.fillRect(begin, std::round(top), end - begin, std::round(height), colour(i));
   }
-  double free = -1e9;  // the right end of the last label, so that labels never run into each other
-  for (const Tick& tick : ticks) {
-    const double x = left_ + tick.at * width_;
-    canvas_.fillRect(x - 0.5 * scale_, top + height, scale_, 4.0 * scale_, kSoftInk);
-    const TextStyle style = soft(10.5 * scale_);
+  // Labels never run into each other; the last is there in any case, for it says where the scale ends.
+  const TextStyle style = soft(10.5 * scale_);
+  const double room = 5.0 * scale_;
+  const auto placed = [&](const Tick& tick) {
     const double half = 0.5 * canvas_.textWidth(tick.label, style);
-    const double centre = std::clamp(x, left_ + half, left_ + width_ - half);
-    if (centre - half < free) continue;
+    return std::pair(std::clamp(left_ + tick.at * width_, left_ + half, left_ + width_ - half), half);
+  };
+  double free = -1e9, end = 1e9;
+  for (const Tick& tick : ticks) {
+    const bool last = &tick == &ticks.back();
+    if (!last) end = placed(ticks.back()).first - placed(ticks.back()).second - room;
+    canvas_.fillRect(left_ + tick.at * width_ - 0.5 * scale_, top + height, scale_, 4.0 * scale_, kSoftInk);
+    const auto [centre, half] = placed(tick);
+    if (!last && (centre - half < free || centre + half > end)) continue;
     canvas_.text(centre, top + height + 15.0 * scale_, tick.label, style, Align::centre);
-    free = centre + half + 5.0 * scale_;
+    free = centre + half + room;
   }
   y_ = top + height + 22.0 * scale_;
 }
@@ -93,7 +100,7 @@ void Panel::row(const std::vector<image::Rgb8>& swatches, const std::string& tex
 
 void Panel::ledger(const std::vector<study::LedgerLine>& lines) {
   const TextStyle style = soft(10.0 * scale_);
-  const double indent = 62.0 * scale_;
+  const double indent = 66.0 * scale_;
   for (const study::LedgerLine& line : lines) {
     canvas_.text(left_, y_ + 13.0 * scale_, line.subject, {10.0 * scale_, true, kSoftInk});
     for (const std::string& part : canvas_.wrap(line.text, width_ - indent, style)) {
