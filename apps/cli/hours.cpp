@@ -109,8 +109,11 @@ std::string summary(const study::HoursTable& table) {
   std::sort(sorted.begin(), sorted.end());
   double sum = 0.0;
   for (const double h : sorted) sum += h;
-  return fmt::format("{} points: {:.3f} to {:.3f} h of sun, mean {:.3f} h, median {:.3f} h\n", sorted.size(),
-                     sorted.front(), sorted.back(), sum / double(sorted.size()), sorted[sorted.size() / 2]);
+  // Of a grid these are mostly the points within buildings, which a picture shows as built over.
+  const auto dark = std::upper_bound(sorted.begin(), sorted.end(), 0.0) - sorted.begin();
+  return fmt::format("{} points: {:.3f} to {:.3f} h of sun, mean {:.3f} h, median {:.3f} h, {} always dark\n",
+                     sorted.size(), sorted.front(), sorted.back(), sum / double(sorted.size()),
+                     sorted[sorted.size() / 2], dark);
 }
 
 Result<Outcome> run(const HoursOptions& options, const Console& console) {
