@@ -6,18 +6,22 @@
 #include "umbrage/base/error.hpp"
 
 // What Coin's traversal takes on trust and a hostile (or merely unusual) file breaks.
-namespace umbrage::io::reader {
+namespace umbrage::inventor {
 
 /// Errors: a node contains itself; following every use of every node, there are more nodes than can be gone through.
 [[nodiscard]] Result<void> checkGraph(SoNode* root);
 
 /// What is to be done with a shape. Asked before Coin enters it.
 enum class ShapeVerdict {
-  read,         ///< fit to be read; bindings that Coin would read beyond the end of have been made long enough
+  read,         ///< fit to be read
   withoutArea,  ///< points, lines, pictures: nothing here
   broken,       ///< a face set that names points it does not have
   nurbs         ///< surfaces for which Coin wants an OpenGL context
 };
-[[nodiscard]] ShapeVerdict judge(SoCallbackAction* action, SoNode* shape);
+[[nodiscard]] ShapeVerdict judge(SoCallbackAction* action, const SoNode* shape);
 
-}  // namespace umbrage::io::reader
+/// Makes bindings that Coin would read beyond the end of long enough, and empties those of normals and texture coordinates. It changes the
+/// node, without telling anybody: for graphs that are read once and thrown away.
+void secureBindings(SoNode* shape);
+
+}  // namespace umbrage::inventor

@@ -1,0 +1,92 @@
+#include "umbrage/coin/detail/subsets.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "umbrage/base/check.hpp"
+
+namespace umbrage::coin::detail {
+namespace {
+
+constexpr std::size_t kMost = 255;
+constexpr std::size_t kMostLights = 64;
+
+/// Finds the code of a set of lights, told as bits.
+class Codes {
+ public:
+  explicit Codes(Subsets& out) : out_(out) {}
+
+  std::uint8_t of(std::uint64_t off, std::size_t lights) {
+    if (off == 0) return 0;
+    if (off == lastOff_) return last_;  // neighbours are mostly alike
+    lastOff_ = off;
+    if (const auto known = known_.find(off); known != known_.end()) return last_ = known->second;
+    return last_ = out_.all.size() < kMost ? add(off, lights) : std::uint8_t{0};
+  }
+
+ private:
+  std::uint8_t add(std::uint64_t off, std::size_t lights) {
+    Subset subset;
+    for (std::size_t i = 0; i < lights; ++i)
+      if ((off >> i & 1u) != 0) subset.off.push_back(i);
+    out_.all.push_back(std::move(subset));
+    return known_[off] = static_cast<std::uint8_t>(out_.all.size());
+  }
+  Subsets& out_;
+  std::unordered_map<std::uint64_t, std::uint8_t> known_;
+  std::uint64_t lastOff_ = 0;
+  std::uint8_t last_ = 0;
+};
+
+void offInRow(std::span<const shadow::LightMask> masks, int y, std::vector<std::uint64_t>& off) {
+  std::ranges::fill(off, 0);
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    const std::uint8_t* light = masks[i].light.row(y);
+    const std::uint8_t* covered = masks[i].covered.row(y);
+    for (std::size_t x = 0; x < off.size(); ++x) off[x] |= std::uint64_t{covered[x] != 0 && light[x] == 0} << i;
+  }
+}
+
+void enlarge(gl::Rect& box, int x, int y) {
+  if (box.empty()) {
+    box = {x, y, 1, 1};
+    return;
+  }
+  const int right = std::max(box.x + box.width, x + 1), top = std::max(box.y + box.height, y + 1);
+  box.x = std::min(box.x, x);
+  box.y = std::min(box.y, y);
+  box.width = right - box.x;
+  box.height = top - box.y;
+}
+
+void measure(Subsets& out) {
+  const std::uint8_t* code = out.codes.data();
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x, ++code)
+      if (*code != 0) enlarge(out.all[*code - 1u].box, x, y);
+}
+
+}  // namespace
+
+Subsets subsetsOf(std::span<const shadow::LightMask> masks) {
+  Subsets out;
+  if (masks.empty()) return out;
+  UMBRAGE_CHECK(masks.size() <= kMostLights, "too many lights");
+  out.width = masks[0].light.width();
+  out.height = masks[0].light.height();
+  out.codes.resize(masks[0].light.size());
+  Codes codes(out);
+  std::vector<std::uint64_t> off(static_cast<std::size_t>(out.width));
+  for (int y = 0; y < out.height; ++y) {
+    offInRow(masks, out.height - 1 - y, off);
+    std::uint8_t* row = out.codes.data() + static_cast<std::size_t>(y) * off.size();
+    for (std::size_t x = 0; x < off.size(); ++x) {
+      row[x] = codes.of(off[x], masks.size());
+      out.left += off[x] != 0 && row[x] == 0;
+    }
+  }
+  measure(out);
+  return out;
+}
+
+}  // namespace umbrage::coin::detail

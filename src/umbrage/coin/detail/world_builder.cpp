@@ -1,0 +1,60 @@
+#include "umbrage/coin/detail/world_builder.hpp"
+
+#include <algorithm>
+
+namespace umbrage::coin::detail {
+namespace {
+
+std::size_t movedShapes(const std::vector<PlacedShape>& before, const std::vector<PlacedShape>& now) {
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < std::min(before.size(), now.size()); ++i)
+    moved += before[i].triangles == now[i].triangles && before[i].toWorld != now[i].toWorld;
+  return moved;
+}
+
+void add(scene::Scene& scene, const std::shared_ptr<const mesh::Mesh>& mesh, const Mat4& toWorld, bool casts) {
+  scene.instances.push_back({"", static_cast<std::uint32_t>(scene.meshes.size()), toWorld, casts});
+  scene.meshes.push_back(mesh);
+}
+
+/// The veiled parts stand after the opaque ones: instances from `veiled` on are looked through.
+struct Parts {
+  scene::Scene scene;
+  std::size_t veiled = 0;
+};
+
+Parts partsOf(const std::vector<PlacedShape>& shapes, TransparentCasters transparent) {
+  Parts parts;
+  parts.scene.materials = {{}};
+  for (const PlacedShape& s : shapes)
+    if (s.triangles->opaque != nullptr) add(parts.scene, s.triangles->opaque, s.toWorld, s.casts);
+  parts.veiled = parts.scene.instances.size();
+  if (transparent == TransparentCasters::opaque)
+    for (const PlacedShape& s : shapes)
+      if (s.triangles->veiled != nullptr && s.casts) add(parts.scene, s.triangles->veiled, s.toWorld, true);
+  return parts;
+}
+
+World assemble(const Parts& parts) {
+  World world;
+  if (parts.scene.instances.empty()) return world;
+  world.geometry = shadow::makeGeometry(parts.scene);
+  if (parts.veiled == parts.scene.instances.size()) return world;
+  for (const std::uint32_t instance : world.geometry->surfaces.instances)
+    world.unseen.push_back(instance >= parts.veiled ? 1 : 0);
+  return world;
+}
+
+}  // namespace
+
+const World& WorldBuilder::build(const std::vector<PlacedShape>& shapes, TransparentCasters transparent, Work& work) {
+  if (shapes == shapes_ && transparent == transparent_) return world_;
+  work.poses += movedShapes(shapes_, shapes);
+  ++work.geometryBuilds;
+  shapes_ = shapes;
+  transparent_ = transparent;
+  world_ = assemble(partsOf(shapes, transparent));
+  return world_;
+}
+
+}  // namespace umbrage::coin::detail
