@@ -17,6 +17,9 @@ namespace umbrage::coin::test {
 void startCoin() {
   static const bool started = [] {
     SoDB::init();
+    SoDB::enableRealTimeSensor(FALSE);  // pictures that are compared are of one moment
+    // Coin's own pictures of some files (cubes without normals of their own) change when it makes a cache.
+    SoSeparator::setNumRenderCaches(0);
     SoNodeKit::init();
     SoInteraction::init();
     coin::init();

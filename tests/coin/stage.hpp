@@ -4,6 +4,8 @@
 #include <Inventor/actions/SoGLRenderAction.h>
 #include <Inventor/nodes/SoSeparator.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <string>
 
@@ -59,15 +61,25 @@ class Stage {
   SoGLRenderAction action_;
 };
 
-/// The largest difference of any channel, over pixels for which `where` is true.
+/// The largest difference of any channel, and where.
+struct Difference {
+  int most = 0, x = 0, y = 0;
+  std::size_t pixels = 0;  ///< that differ by more than 2
+};
+/// Over pixels for which `where` is true.
 template <class Where>
-int largestDifference(const image::RgbaImage& a, const image::RgbaImage& b, Where&& where) {
-  int most = 0;
-  const auto add = [&](int x, int y) { most = std::max(most, x > y ? x - y : y - x); };
-  for (int y = 0; y < a.height(); ++y)
-    for (int x = 0; x < a.width(); ++x)
-      if (where(x, y)) add(a(x, y).r, b(x, y).r), add(a(x, y).g, b(x, y).g), add(a(x, y).b, b(x, y).b);
-  return most;
+Difference largestDifference(const image::RgbaImage& a, const image::RgbaImage& b, Where&& where) {
+  Difference found;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) {
+      if (!where(x, y)) continue;
+      const auto &p = a(x, y), &q = b(x, y);
+      const int most = std::max({std::abs(p.r - q.r), std::abs(p.g - q.g), std::abs(p.b - q.b)});
+      found.pixels += most > 2;
+      if (most > found.most) found.most = most, found.x = x, found.y = y;
+    }
+  }
+  return found;
 }
 
 }  // namespace umbrage::coin::test

@@ -20,7 +20,7 @@ struct Strayed {
 void expectTrueShadows(const SoExactShadowGroup& group, const std::string& what);
 
 /// Where all lights reach, the picture is the one that Coin draws without shadows (within 2/255); where a light does not reach, it is the one that Coin
-/// draws without that light.
+/// draws without that light. Where Coin puts shapes off (transparent ones, annotations), they are in full light, and only the first is looked at.
 void expectCoinsOwnPicture(Stage& stage, SoNode* root, SoExactShadowGroup& group, const image::RgbaImage& shadowed);
 
 /// As NAME.png in the folder that UMBRAGE_TEST_PICTURES names, if any: to be looked at.

@@ -1,7 +1,10 @@
 #include "umbrage/coin/exact_shadow_group.hpp"
 
 #include <Inventor/actions/SoGLRenderAction.h>
+#include <Inventor/actions/SoGetBoundingBoxAction.h>
+#include <Inventor/actions/SoGetMatrixAction.h>
 #include <Inventor/annex/FXViz/nodes/SoShadowGroup.h>
+#include <Inventor/misc/SoState.h>
 
 #include "umbrage/coin/detail/engine.hpp"
 
@@ -59,6 +62,51 @@ Settings SoExactShadowGroup::settings() const {
 void SoExactShadowGroup::GLRenderBelowPath(SoGLRenderAction* action) {
   if (!isActive.getValue()) return inherited::GLRenderBelowPath(action);
   engine_->render(action, settings(), [this](SoGLRenderAction* a) { SoGroup::GLRender(a); });
+}
+
+// For what Coin put off until all else is drawn: of every pass's paths only those of the first are of children.
+void SoExactShadowGroup::GLRenderInPath(SoGLRenderAction* action) {
+  int count = 0;
+  const int* indices = nullptr;
+  const SoAction::PathCode code = action->getPathCode(count, indices);
+  if (code != SoAction::IN_PATH) return GLRenderBelowPath(action);
+  action->getState()->push();
+  int child = 0;
+  for (int i = 0; i < count && indices[i] < getNumChildren() && !action->hasTerminated(); ++i) {
+    for (; child <= indices[i]; ++child) {
+      SoNode* node = getChild(child);
+      const bool onPath = child == indices[i];
+      if (!onPath && !node->affectsState()) continue;
+      action->pushCurPath(child, node);
+      onPath ? node->GLRenderInPath(action) : node->GLRenderOffPath(action);
+      action->popCurPath(code);
+    }
+  }
+  action->getState()->pop();
+}
+
+namespace {
+
+// Nodes that are drawn in later passes may ask about their own path, which leads through a child that there is not.
+template <class Action, class Fn>
+void passingNobody(Action* action, Fn&& go) {
+  int count = 0;
+  const int* indices = nullptr;
+  const SoAction::PathCode code = action->getPathCode(count, indices);
+  const bool astray = code == SoAction::IN_PATH && count == 1 && indices[0] == detail::kNoChild;
+  if (astray) action->pushCurPath(detail::kNoChild, detail::nobody());
+  go();
+  if (astray) action->popCurPath(code);
+}
+
+}  // namespace
+
+void SoExactShadowGroup::getBoundingBox(SoGetBoundingBoxAction* action) {
+  passingNobody(action, [&] { inherited::getBoundingBox(action); });
+}
+
+void SoExactShadowGroup::getMatrix(SoGetMatrixAction* action) {
+  passingNobody(action, [&] { inherited::getMatrix(action); });
 }
 
 }  // namespace umbrage::coin

@@ -58,6 +58,9 @@ class SoExactShadowGroup : public SoSeparator {
   [[nodiscard]] const std::optional<Error>& lastError() const;
 
   void GLRenderBelowPath(SoGLRenderAction* action) override;
+  void GLRenderInPath(SoGLRenderAction* action) override;
+  void getBoundingBox(SoGetBoundingBoxAction* action) override;
+  void getMatrix(SoGetMatrixAction* action) override;
 
   /// For the other files of this room.
   [[nodiscard]] detail::Engine& engine() { return *engine_; }

@@ -180,4 +180,45 @@ void secureBindings(SoNode* shape) {
   }
 }
 
+struct LongBindings::Saved {
+  struct Field {
+    SoMFInt32* field;
+    std::vector<std::int32_t> indices;
+    SbBool wasDefault, notified;
+  };
+  SoIndexedShape* shape;
+  std::vector<Field> fields;
+};
+
+LongBindings::LongBindings(SoNode* node) {
+  if (!node->isOfType(SoIndexedShape::getClassTypeId())) return;
+  auto* shape = static_cast<SoIndexedShape*>(node);
+  saved_ = std::make_unique<Saved>(Saved{shape, {}});
+  shape->ref();
+  for (SoMFInt32* field : {&shape->materialIndex, &shape->normalIndex, &shape->textureCoordIndex}) {
+    if (field->getNum() >= shape->coordIndex.getNum()) continue;
+    const std::int32_t* values = field->getValues(0);
+    saved_->fields.push_back(
+        {field, {values, values + field->getNum()}, field->isDefault(), field->enableNotify(FALSE)});
+    lengthen(*field, shape->coordIndex);
+  }
+}
+
+LongBindings::LongBindings(LongBindings&&) noexcept = default;
+LongBindings& LongBindings::operator=(LongBindings&& other) noexcept {
+  saved_.swap(other.saved_);
+  return *this;
+}
+
+LongBindings::~LongBindings() {
+  if (saved_ == nullptr) return;
+  for (const Saved::Field& saved : saved_->fields) {
+    saved.field->setNum(static_cast<int>(saved.indices.size()));
+    saved.field->setValues(0, static_cast<int>(saved.indices.size()), saved.indices.data());
+    saved.field->setDefault(saved.wasDefault);
+    saved.field->enableNotify(saved.notified);
+  }
+  saved_->shape->unref();
+}
+
 }  // namespace umbrage::inventor

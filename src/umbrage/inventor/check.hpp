@@ -3,6 +3,8 @@
 #include <Inventor/actions/SoCallbackAction.h>
 #include <Inventor/nodes/SoNode.h>
 
+#include <memory>
+
 #include "umbrage/base/error.hpp"
 
 // What Coin's traversal takes on trust and a hostile (or merely unusual) file breaks.
@@ -19,6 +21,20 @@ enum class ShapeVerdict {
   nurbs         ///< surfaces for which Coin wants an OpenGL context
 };
 [[nodiscard]] ShapeVerdict judge(SoCallbackAction* action, const SoNode* shape);
+
+/// For as long as this lives, an indexed shape has indices of material, normal and texture coordinates for every corner, as Coin reads them, however few it names: those that are
+/// missing are the corners' own where it names none, else 0. Nobody is told, and afterwards the shape is as it was.
+class LongBindings {
+ public:
+  explicit LongBindings(SoNode* shape);
+  LongBindings(LongBindings&&) noexcept;
+  LongBindings& operator=(LongBindings&&) noexcept;
+  ~LongBindings();
+
+ private:
+  struct Saved;
+  std::unique_ptr<Saved> saved_;
+};
 
 /// Makes bindings that Coin would read beyond the end of long enough, and empties those of normals and texture coordinates. It changes the
 /// node, without telling anybody: for graphs that are read once and thrown away.

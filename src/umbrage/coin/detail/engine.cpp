@@ -1,7 +1,7 @@
 #include "umbrage/coin/detail/engine.hpp"
 
 #include <Inventor/actions/SoGLRenderAction.h>
-#include <Inventor/caches/SoCache.h>
+#include <Inventor/caches/SoGLRenderCache.h>
 #include <Inventor/elements/SoCacheElement.h>
 #include <Inventor/elements/SoGLCacheContextElement.h>
 #include <Inventor/elements/SoModelMatrixElement.h>
@@ -10,12 +10,16 @@
 #include <Inventor/elements/SoViewingMatrixElement.h>
 #include <Inventor/elements/SoViewportRegionElement.h>
 #include <Inventor/misc/SoState.h>
+#include <Inventor/nodes/SoLight.h>
 #include <Inventor/nodes/SoSeparator.h>
+
+#include <algorithm>
 
 #include "umbrage/coin/detail/context_share.hpp"
 #include "umbrage/coin/detail/lights.hpp"
 #include "umbrage/coin/detail/lights_off.hpp"
 #include "umbrage/coin/detail/ray_masks.hpp"
+#include "umbrage/gl/context.hpp"
 #include "umbrage/gl/stencil_window.hpp"
 
 namespace umbrage::coin::detail {
@@ -33,54 +37,36 @@ class ManyPasses {
     SoGLCacheContextElement::shouldAutoCache(state, SoGLCacheContextElement::DONT_AUTO_CACHE);
     state->push();
     SoGLCacheContextElement::set(state, static_cast<int>(cacheContext), FALSE, remote);
-    auto* never = new SoCache(state);
-    SoCacheElement::set(state, never);
-    delayTransparency();
+    SoCacheElement::set(state, new SoGLRenderCache(state));  // Coin takes every open cache for one of these
   }
   ManyPasses(const ManyPasses&) = delete;
   ManyPasses& operator=(const ManyPasses&) = delete;
   ~ManyPasses() { state_->pop(); }
 
  private:
-  // What is blended at once would be overdrawn by the passes that follow.
-  void delayTransparency() {
-    switch (SoShapeStyleElement::getTransparencyType(state_)) {
-      case SoGLRenderAction::BLEND:
-        SoShapeStyleElement::setTransparencyType(state_, SoGLRenderAction::DELAYED_BLEND);
-        break;
-      case SoGLRenderAction::ADD:
-        SoShapeStyleElement::setTransparencyType(state_, SoGLRenderAction::DELAYED_ADD);
-        break;
-      default: break;
-    }
-  }
   SoState* state_;
 };
 
+// Whether Coin blends at all.
 bool drawsTransparent(SoState* state) {
   return SoShapeStyleElement::getTransparencyType(state) != SoGLRenderAction::NONE;
 }
 
-// Draws only what Coin holds for opaque: transparent shapes come once, after all else, and shapes that Coin puts off must not be put off again.
-void drawOpaque(SoGLRenderAction* action, const Engine::Draw& draw) {
+void drawPass(SoGLRenderAction* action, const Engine::Draw& draw, Delayed delayed) {
   SoState* state = action->getState();
+  const SoAction::PathCode code = action->getCurPathCode();
   state->push();
-  if (drawsTransparent(state)) SoShapeStyleElement::setShadowMapRendering(state, TRUE);
+  if (delayed == Delayed::astray) action->pushCurPath(kNoChild, nobody());
   draw(action);
+  if (delayed == Delayed::astray) action->popCurPath(code);
   state->pop();
 }
 
-// Draws all, and tells how it is seen, as Coin's own drawing has it where that can be told here: stereo and jitter are in it. A camera below another
-// separator was told by the scan.
-std::optional<Sight> drawAll(SoGLRenderAction* action, const Scan& scan, const Engine::Draw& draw) {
-  SoState* state = action->getState();
-  state->push();
-  draw(action);
-  std::optional<Sight> sight = scan.sight;
-  if (const SbMatrix& projection = SoProjectionMatrixElement::get(state); projection != SbMatrix::identity())
-    sight = Sight{SoViewingMatrixElement::get(state), projection, SoViewportRegionElement::get(state)};
-  state->pop();
-  return sight;
+// As Coin's own drawing has it, where the camera stands before: stereo and jitter are in it. A camera inside was told by the scan.
+std::optional<Sight> sightOf(SoState* state, const Scan& scan) {
+  const SbMatrix& projection = SoProjectionMatrixElement::get(state);
+  if (projection == SbMatrix::identity()) return scan.sight;
+  return Sight{SoViewingMatrixElement::get(state), projection, SoViewportRegionElement::get(state)};
 }
 
 std::vector<Vec4> placesOf(const std::vector<PlacedLight>& lights) {
@@ -89,7 +75,37 @@ std::vector<Vec4> placesOf(const std::vector<PlacedLight>& lights) {
   return places;
 }
 
+// Per triangle the lights that may light it; empty where all are before all shapes.
+std::vector<std::uint64_t> shiningOn(const Scan& scan, const World& world) {
+  std::vector<std::uint64_t> onShape(scan.shapes.size(), 0);
+  std::uint64_t common = ~std::uint64_t{0};
+  for (std::size_t i = 0; i < scan.shapes.size(); ++i) {
+    for (std::size_t k = 0; k < scan.lights.size(); ++k) {
+      const SoNode* node = scan.lights[k].node;
+      const bool told = node->isOfType(SoLight::getClassTypeId()) != FALSE;
+      const bool shines = !told || std::ranges::find(scan.shining[i], node) != scan.shining[i].end();
+      onShape[i] |= std::uint64_t{shines} << k;
+    }
+    common &= onShape[i];
+  }
+  std::vector<std::uint64_t> on;
+  const std::size_t lights = scan.lights.size();
+  if (world.geometry == nullptr || common == ~std::uint64_t{0} >> (64 - std::min<std::size_t>(lights, 64))) return on;
+  for (const std::uint32_t instance : world.geometry->surfaces.instances)
+    on.push_back(onShape[world.shapeOf[instance]]);
+  return on;
+}
+
 }  // namespace
+
+SoNode* nobody() {
+  static SoNode* const node = [] {
+    auto* made = new SoSeparator;
+    made->ref();
+    return made;
+  }();
+  return node;
+}
 
 void Engine::note(Error error) { error_ = std::move(error); }
 
@@ -117,20 +133,36 @@ void Engine::render(SoGLRenderAction* action, const Settings& settings, const Dr
 Result<void> Engine::drawShadowed(SoGLRenderAction* action, const Settings& settings, const Draw& draw) {
   SoState* state = action->getState();
   const ManyPasses passes(state, shareOf(static_cast<std::uint32_t>(action->getCacheContext())).cacheContext);
-  const Scan scan = extractor_.scan(
-      {action->getCurPath(), SoViewportRegionElement::get(state), &registry_, true, drawsTransparent(state)});
+  const Scan scan = extractor_.scan({action->getCurPath(), SoViewportRegionElement::get(state), &registry_,
+                                     !gl::currentIsEgl(), drawsTransparent(state)});
   work_.extractions = extractor_.extractions();
-  const auto sight = drawAll(action, scan, draw);
-  passes_ = 1;
   ++work_.frames;
-  if (!scan.manifold.empty())
-    note(Error{ErrorCode::unsupported, "a light that stands at several places casts no shadows",
-               scan.manifold.front()->getName().getString()});
+  passes_ = 0;
+  const auto sight = sightOf(state, scan);
   const auto view = sight ? viewOf(*sight) : std::nullopt;
-  if (!view) return scan.shapes.empty() ? Result<void>{} : fail(ErrorCode::usage, "no shadows: there is no camera");
-  if (auto done = shade(scan, *view, settings); !done) return done;
-  if (auto done = compose(action, *view, draw); !done) return done;
-  if (settings.sceneType == SceneType::visibleVolumes) drawVolumes(action, scan, *sight, settings);
+  const auto subsets = shadowsOf(scan, view, settings);
+  if (auto done = compose(action, subsets ? *subsets : Subsets{}, view, draw); !done) return done;
+  if (!subsets) return tl::unexpected(subsets.error());
+  if (settings.sceneType == SceneType::visibleVolumes && view) drawVolumes(action, scan, *sight, settings);
+  return complaints(scan);
+}
+
+Result<Subsets> Engine::shadowsOf(const Scan& scan, const std::optional<View>& view, const Settings& settings) {
+  if (scan.shapes.empty()) return Subsets{};
+  if (!view) return fail(ErrorCode::usage, "no shadows: there is no camera");
+  if (scan.lights.size() > kMostLights) return fail(ErrorCode::unsupported, "no shadows: more than 64 lights");
+  if (auto done = shade(scan, *view, settings); !done) return tl::unexpected(done.error());
+  const std::vector<std::uint64_t> shining = shiningOn(scan, builder_.world());
+  return subsetsOf(reach_.masks, {&reach_.triangle, shining});
+}
+
+Result<void> Engine::complaints(const Scan& scan) {
+  if (!scan.manifold.empty())
+    return fail(ErrorCode::unsupported, "a light that stands at several places casts no shadows",
+                scan.manifold.front()->getName().getString());
+  if (scan.broken > 0)
+    return fail(ErrorCode::input,
+                std::to_string(scan.broken) + " shapes cast nothing: they name points they do not have");
   return {};
 }
 
@@ -176,24 +208,45 @@ Result<void> Engine::shade(const Scan& scan, const View& view, const Settings& s
   return {};
 }
 
-Result<void> Engine::compose(SoGLRenderAction* action, const View& view, const Draw& draw) {
-  const Subsets subsets = subsetsOf(reach_.masks);
-  if (subsets.all.empty()) return {};
-  ContextShare& share = shareOf(static_cast<std::uint32_t>(action->getCacheContext()));
-  if (auto done = share.stamp.write(subsets, view.x, view.y); !done) return done;
-  for (std::size_t i = 0; i < subsets.all.size(); ++i) {
-    const Subset& subset = subsets.all[i];
-    std::vector<SoNode*> off;
-    for (const std::size_t light : subset.off) off.push_back(lights_[light].node);
-    const LightsOff dark(off);
-    const gl::Rect box{view.x + subset.box.x, view.y + subset.box.y, subset.box.width, subset.box.height};
-    const gl::StencilWindow window(static_cast<std::uint8_t>(i + 1), box);
-    drawOpaque(action, draw);
+// Every pixel is drawn by exactly one pass, the one whose lights reach it.
+Result<void> Engine::compose(SoGLRenderAction* action, const Subsets& subsets, const std::optional<View>& view,
+                             const Draw& draw) {
+  if (subsets.all.empty()) {
     ++passes_;
+    drawPass(action, draw, Delayed::noted);
+    return {};
   }
-  Stamp::clear({view.x, view.y, view.width, view.height});
-  if (subsets.left > 0) return fail(ErrorCode::unsupported, "more than 255 sets of lights in one picture");
+  const gl::Rect whole{view->x, view->y, view->width, view->height};
+  ContextShare& share = shareOf(static_cast<std::uint32_t>(action->getCacheContext()));
+  Delayed delayed = Delayed::noted;
+  for (std::size_t round = 0; round < roundsOf(subsets); ++round) {
+    if (auto done = share.stamp.write(stencilOf(subsets, round), whole); !done) {
+      if (delayed == Delayed::noted) drawPass(action, draw, delayed);
+      return done;
+    }
+    const std::size_t first = round * kPerRound, end = std::min(first + kPerRound, subsets.all.size());
+    for (std::size_t i = round == 0 ? 0 : first + 1; i <= end; ++i) {
+      const Subset* subset = i > 0 ? &subsets.all[i - 1] : nullptr;
+      drawSubset(action, subset, static_cast<std::uint8_t>(i - first), whole, draw, delayed);
+      delayed = Delayed::astray;
+    }
+  }
+  Stamp::clear(whole);
   return {};
+}
+
+void Engine::drawSubset(SoGLRenderAction* action, const Subset* subset, std::uint8_t stencil, const gl::Rect& whole,
+                        const Draw& draw, Delayed delayed) {
+  std::vector<SoNode*> off;
+  gl::Rect box = whole;
+  if (subset != nullptr) {
+    for (const std::size_t light : subset->off) off.push_back(lights_[light].node);
+    box = {whole.x + subset->box.x, whole.y + subset->box.y, subset->box.width, subset->box.height};
+  }
+  const LightsOff dark(off);
+  const gl::StencilWindow window(stencil, box);
+  drawPass(action, draw, delayed);
+  ++passes_;
 }
 
 const ShadowReport& Engine::report() const {

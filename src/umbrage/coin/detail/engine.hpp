@@ -6,6 +6,7 @@
 #include "umbrage/coin/detail/extractor.hpp"
 #include "umbrage/coin/detail/mask_maker.hpp"
 #include "umbrage/coin/detail/registry.hpp"
+#include "umbrage/coin/detail/subsets.hpp"
 #include "umbrage/coin/detail/volumes.hpp"
 #include "umbrage/coin/detail/world_builder.hpp"
 #include "umbrage/coin/settings.hpp"
@@ -17,6 +18,12 @@ class SoSeparator;
 class SoState;
 
 namespace umbrage::coin::detail {
+
+/// What becomes of shapes that Coin puts off until all others are drawn: their paths are noted, or noted as leading through a child that the group
+/// does not have, so that they are drawn once however many passes there are. (Coin dies of a path that it has twice.)
+enum class Delayed { noted, astray };
+inline constexpr int kNoChild = 1 << 20;  ///< index of that child
+[[nodiscard]] SoNode* nobody();           ///< the child
 
 /// What one picture of a scene graph needs to know about its shadows: the one implementation behind node and manager.
 class Engine {
@@ -44,7 +51,12 @@ class Engine {
   [[nodiscard]] Result<void> drawShadowed(SoGLRenderAction* action, const Settings& settings, const Draw& draw);
   void drawVolumes(SoGLRenderAction* action, const Scan& scan, const Sight& sight, const Settings& settings);
   [[nodiscard]] Result<void> shade(const Scan& scan, const View& view, const Settings& settings);
-  [[nodiscard]] Result<void> compose(SoGLRenderAction* action, const View& view, const Draw& draw);
+  [[nodiscard]] Result<Subsets> shadowsOf(const Scan& scan, const std::optional<View>& view, const Settings& settings);
+  [[nodiscard]] Result<void> compose(SoGLRenderAction* action, const Subsets& subsets, const std::optional<View>& view,
+                                     const Draw& draw);
+  void drawSubset(SoGLRenderAction* action, const Subset* subset, std::uint8_t stencil, const gl::Rect& whole,
+                  const Draw& draw, Delayed delayed);
+  [[nodiscard]] static Result<void> complaints(const Scan& scan);
   void note(Error error);
 
   Registry registry_;

@@ -8,6 +8,7 @@
 #include <Inventor/caches/SoCache.h>
 #include <Inventor/elements/SoCacheElement.h>
 #include <Inventor/elements/SoLazyElement.h>
+#include <Inventor/elements/SoLightElement.h>
 #include <Inventor/elements/SoMultiTextureImageElement.h>
 #include <Inventor/elements/SoViewportRegionElement.h>
 #include <Inventor/misc/SoState.h>
@@ -50,6 +51,15 @@ Veil veilAt(SoState* state, bool counts) {
   const bool clear = std::ranges::all_of(veil.transparencies, [](float t) { return t <= 0.0f; });
   if (clear) veil.transparencies.clear();
   return veil;
+}
+
+// Coin does not note VRML's lights.
+std::vector<const SoNode*> lightsAt(SoState* state) {
+  std::vector<const SoNode*> nodes;
+  if (!state->isElementEnabled(SoLightElement::getClassStackIndex())) return nodes;
+  const SoNodeList& lights = SoLightElement::getLights(state);
+  for (int i = 0; i < lights.getLength(); ++i) nodes.push_back(lights[i]);
+  return nodes;
 }
 
 /// One part of a shape while it is read.
@@ -132,6 +142,7 @@ class Extractor::Traversal {
   // The shape that is being read:
   bool reading_ = false;
   Entry entry_;
+  std::optional<inventor::LongBindings> bindings_;
   Soup opaque_, veiled_;
   SbBool cacheWasOpen_ = FALSE, wasInvalid_ = FALSE;
 };
@@ -173,7 +184,7 @@ Extractor::Traversal::Response Extractor::Traversal::enter(SoCallbackAction* act
   const auto verdict = inventor::judge(action, shape);
   if (verdict == inventor::ShapeVerdict::broken) ++scan_.broken;
   const bool readable =
-      verdict == inventor::ShapeVerdict::read || (verdict == inventor::ShapeVerdict::nurbs && request_.hasContext);
+      verdict == inventor::ShapeVerdict::read || (verdict == inventor::ShapeVerdict::nurbs && request_.hasGlx);
   if (!readable) return SoCallbackAction::PRUNE;
   Veil veil = veilAt(state, request_.transparencyCounts);
   if (!forgotten_.empty() && isForgotten(action->getCurPath())) memory_.drop(*shape);
@@ -183,6 +194,7 @@ Extractor::Traversal::Response Extractor::Traversal::enter(SoCallbackAction* act
     return SoCallbackAction::PRUNE;
   }
   startReading(state, std::move(veil));
+  bindings_.emplace(const_cast<SoNode*>(shape));  // callbacks show nodes as const
   return SoCallbackAction::CONTINUE;
 }
 
@@ -203,6 +215,7 @@ void Extractor::Traversal::startReading(SoState* state, Veil veil) {
 void Extractor::Traversal::leave(SoCallbackAction* action, const SoNode* shape) {
   if (!reading_) return;
   reading_ = false;
+  bindings_.reset();
   SoState* state = action->getState();
   state->setCacheOpen(cacheWasOpen_);
   state->pop();
@@ -223,6 +236,7 @@ void Extractor::Traversal::place(SoCallbackAction* action, std::shared_ptr<const
   SoState* state = action->getState();
   const bool styled = state->isElementEnabled(SoShadowStyleElement::getClassStackIndex()) != FALSE;
   const bool style = !styled || (SoShadowStyleElement::get(state) & SoShadowStyleElement::CASTS_SHADOW) != 0;
+  scan_.shining.push_back(lightsAt(state));
   scan_.shapes.push_back(
       {std::move(triangles), matrixOf(action->getModelMatrix()), style && request_.registry->casts(*path)});
 }

@@ -42,18 +42,20 @@ struct Sight {
 
 /// A scene graph at one moment.
 struct Scan {
-  std::vector<PlacedShape> shapes;  ///< those with triangles, in the order of the graph
-  std::vector<PlacedLight> lights;  ///< those that shine and cast
-  std::vector<SoNode*> manifold;    ///< lights that stand at several places, which are not in `lights`
-  std::optional<Sight> sight;       ///< of the first shape; none without a camera before it
-  std::size_t broken = 0;           ///< shapes left out, since they name points that they do not have
+  std::vector<PlacedShape> shapes;                  ///< those with triangles, in the order of the graph
+  std::vector<std::vector<const SoNode*>> shining;  ///< per shape: light nodes before it, which alone can light it
+  std::vector<PlacedLight> lights;                  ///< those that shine and cast
+  std::vector<SoNode*> manifold;                    ///< lights that stand at several places, which are not in `lights`
+  std::optional<Sight> sight;                       ///< of the first shape; none without a camera before it
+  std::size_t broken = 0;                           ///< shapes left out, since they name points that they do not have
 };
 
 struct ScanRequest {
   const SoPath* path = nullptr;  ///< down to the node whose shapes and lights are wanted
   SbViewportRegion viewport;
   const Registry* registry = nullptr;
-  bool hasContext = false;         ///< an OpenGL context is current, as Coin needs for NURBS
+  bool hasGlx =
+      false;  ///< GLX works here: Coin makes a context with it to take NURBS apart, and dies where there is none
   bool transparencyCounts = true;  ///< false: Coin draws everything opaque
 };
 

@@ -15,6 +15,7 @@ namespace umbrage::coin::detail {
 /// The casters and receivers of the world.
 struct World {
   std::shared_ptr<const shadow::Geometry> geometry;
+  std::vector<std::size_t> shapeOf;  ///< per instance: the placed shape that it is of
   std::vector<std::uint8_t> unseen;  ///< per triangle, 1 where it casts but is looked through; empty: none
 };
 

@@ -44,15 +44,17 @@ void Stamp::clear(const gl::Rect& viewport) {
   pass.clearStencil(0);
 }
 
-Result<void> Stamp::write(const Subsets& subsets, int x, int y) {
-  const gl::Rect viewport{x, y, subsets.width, subsets.height};
+Result<void> Stamp::write(const std::vector<std::uint8_t>& values, const gl::Rect& viewport) {
   clear(viewport);
   gl::HostScope scope;
-  if (auto done = codes_.setAll(packed(subsets.codes)); !done) return done;
+  if (auto done = codes_.setAll(packed(values)); !done) return done;
   // One bit after the other: no fragment can choose the value that is written.
-  for (int bit = 0; (subsets.all.size() >> bit) != 0; ++bit) {
-    if (auto done = place_.setOne(PlaceBlock{x, y, subsets.width, 1 << bit}); !done) return done;
-    gl::Pass pass(scope, scope.hostFramebuffer(), stampState(viewport, static_cast<std::uint8_t>(1 << bit)));
+  std::uint8_t used = 0;
+  for (const std::uint8_t value : values) used |= value;
+  for (int bit = 1; bit < 256; bit *= 2) {
+    if ((used & bit) == 0) continue;
+    if (auto done = place_.setOne(PlaceBlock{viewport.x, viewport.y, viewport.width, bit}); !done) return done;
+    gl::Pass pass(scope, scope.hostFramebuffer(), stampState(viewport, static_cast<std::uint8_t>(bit)));
     pass.use(program_);
     pass.uniforms(0, place_);
     pass.storage(0, codes_);

@@ -1,7 +1,10 @@
 #pragma once
 
-#include "umbrage/coin/detail/subsets.hpp"
+#include <cstdint>
+#include <vector>
+
 #include "umbrage/gl/objects.hpp"
+#include "umbrage/gl/pass_state.hpp"
 #include "umbrage/gl/program.hpp"
 
 namespace umbrage::coin::detail {
@@ -10,9 +13,9 @@ namespace umbrage::coin::detail {
 class Stamp {
  public:
   Stamp();
-  /// The stencil becomes `codes`, inside the viewport with its lower left corner at (x, y). The host's state is left as it was.
+  /// The stencil becomes `values`, row by row from the bottom, inside the viewport. The host's state is left as it was.
   /// Errors: ErrorCode::device when the framebuffer has fewer than 8 bits of stencil or no depth, or memory is short.
-  [[nodiscard]] Result<void> write(const Subsets& codes, int x, int y);
+  [[nodiscard]] Result<void> write(const std::vector<std::uint8_t>& values, const gl::Rect& viewport);
   /// The stencil becomes 0 there.
   static void clear(const gl::Rect& viewport);
 

@@ -8,34 +8,34 @@
 namespace umbrage::coin::detail {
 namespace {
 
-constexpr std::size_t kMost = 255;
-constexpr std::size_t kMostLights = 64;
+constexpr std::size_t kMost = 65535;
+constexpr std::uint8_t kNotNow = 255;
 
 /// Finds the code of a set of lights, told as bits.
 class Codes {
  public:
   explicit Codes(Subsets& out) : out_(out) {}
 
-  std::uint8_t of(std::uint64_t off, std::size_t lights) {
+  std::uint16_t of(std::uint64_t off, std::size_t lights) {
     if (off == 0) return 0;
     if (off == lastOff_) return last_;  // neighbours are mostly alike
     lastOff_ = off;
     if (const auto known = known_.find(off); known != known_.end()) return last_ = known->second;
-    return last_ = out_.all.size() < kMost ? add(off, lights) : std::uint8_t{0};
+    return last_ = out_.all.size() < kMost ? add(off, lights) : std::uint16_t{0};
   }
 
  private:
-  std::uint8_t add(std::uint64_t off, std::size_t lights) {
+  std::uint16_t add(std::uint64_t off, std::size_t lights) {
     Subset subset;
     for (std::size_t i = 0; i < lights; ++i)
       if ((off >> i & 1u) != 0) subset.off.push_back(i);
     out_.all.push_back(std::move(subset));
-    return known_[off] = static_cast<std::uint8_t>(out_.all.size());
+    return known_[off] = static_cast<std::uint16_t>(out_.all.size());
   }
   Subsets& out_;
-  std::unordered_map<std::uint64_t, std::uint8_t> known_;
+  std::unordered_map<std::uint64_t, std::uint16_t> known_;
   std::uint64_t lastOff_ = 0;
-  std::uint8_t last_ = 0;
+  std::uint16_t last_ = 0;
 };
 
 void offInRow(std::span<const shadow::LightMask> masks, int y, std::vector<std::uint64_t>& off) {
@@ -45,6 +45,12 @@ void offInRow(std::span<const shadow::LightMask> masks, int y, std::vector<std::
     const std::uint8_t* covered = masks[i].covered.row(y);
     for (std::size_t x = 0; x < off.size(); ++x) off[x] |= std::uint64_t{covered[x] != 0 && light[x] == 0} << i;
   }
+}
+
+void keepShining(const Shining& shining, int y, std::vector<std::uint64_t>& off) {
+  const std::uint32_t* triangle = shining.triangle->row(y);
+  for (std::size_t x = 0; x < off.size(); ++x)
+    if (off[x] != 0) off[x] &= shining.lights[triangle[x]];
 }
 
 void enlarge(gl::Rect& box, int x, int y) {
@@ -60,7 +66,7 @@ void enlarge(gl::Rect& box, int x, int y) {
 }
 
 void measure(Subsets& out) {
-  const std::uint8_t* code = out.codes.data();
+  const std::uint16_t* code = out.codes.data();
   for (int y = 0; y < out.height; ++y)
     for (int x = 0; x < out.width; ++x, ++code)
       if (*code != 0) enlarge(out.all[*code - 1u].box, x, y);
@@ -68,7 +74,7 @@ void measure(Subsets& out) {
 
 }  // namespace
 
-Subsets subsetsOf(std::span<const shadow::LightMask> masks) {
+Subsets subsetsOf(std::span<const shadow::LightMask> masks, const Shining& shining) {
   Subsets out;
   if (masks.empty()) return out;
   UMBRAGE_CHECK(masks.size() <= kMostLights, "too many lights");
@@ -79,14 +85,27 @@ Subsets subsetsOf(std::span<const shadow::LightMask> masks) {
   std::vector<std::uint64_t> off(static_cast<std::size_t>(out.width));
   for (int y = 0; y < out.height; ++y) {
     offInRow(masks, out.height - 1 - y, off);
-    std::uint8_t* row = out.codes.data() + static_cast<std::size_t>(y) * off.size();
+    if (!shining.lights.empty()) keepShining(shining, out.height - 1 - y, off);
+    std::uint16_t* row = out.codes.data() + static_cast<std::size_t>(y) * off.size();
     for (std::size_t x = 0; x < off.size(); ++x) {
       row[x] = codes.of(off[x], masks.size());
-      out.left += off[x] != 0 && row[x] == 0;
     }
   }
   measure(out);
   return out;
+}
+
+std::size_t roundsOf(const Subsets& subsets) { return (subsets.all.size() + kPerRound - 1) / kPerRound; }
+
+std::vector<std::uint8_t> stencilOf(const Subsets& subsets, std::size_t round) {
+  std::vector<std::uint8_t> stencil(subsets.codes.size());
+  const std::size_t first = round * kPerRound;
+  for (std::size_t i = 0; i < stencil.size(); ++i) {
+    const std::size_t code = subsets.codes[i];
+    const bool turn = code == 0 ? round == 0 : code > first && code <= first + kPerRound;
+    stencil[i] = !turn ? kNotNow : code == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(code - first);
+  }
+  return stencil;
 }
 
 }  // namespace umbrage::coin::detail

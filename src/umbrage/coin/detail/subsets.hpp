@@ -18,13 +18,25 @@ struct Subset {
 /// A picture cut up by which lights reach.
 struct Subsets {
   int width = 0, height = 0;
-  std::vector<std::uint8_t>
+  std::vector<std::uint16_t>
       codes;  ///< per pixel, row by row from the bottom: 0 where all lights reach or nothing is seen, else i + 1 for all[i]
-  std::vector<Subset> all;  ///< those that occur, at most 255
-  std::size_t left = 0;     ///< pixels whose subset is one too many: code 0
+  std::vector<Subset> all;  ///< those that occur
 };
 
-/// REQUIRES: masks of one size; at most 64.
-[[nodiscard]] Subsets subsetsOf(std::span<const shadow::LightMask> masks);
+/// What may light what a pixel shows: per pixel a triangle, per triangle the lights that shine on it, as bits. Empty: all on all.
+struct Shining {
+  const image::Image<std::uint32_t>* triangle = nullptr;
+  std::span<const std::uint64_t> lights;
+};
+
+/// REQUIRES: masks of one size; at most kMostLights.
+inline constexpr std::size_t kMostLights = 64;
+[[nodiscard]] Subsets subsetsOf(std::span<const shadow::LightMask> masks, const Shining& shining = {});
+
+/// How many subsets 8 bits of stencil tell apart beside those pixels that all lights reach and those whose turn it is not.
+inline constexpr std::size_t kPerRound = 254;
+[[nodiscard]] std::size_t roundsOf(const Subsets& subsets);
+/// The stencil of a round: i + 1 for the i-th subset of the round, 0 where all lights reach (in the first round), else 255.
+[[nodiscard]] std::vector<std::uint8_t> stencilOf(const Subsets& subsets, std::size_t round);
 
 }  // namespace umbrage::coin::detail

@@ -12,32 +12,36 @@ std::size_t movedShapes(const std::vector<PlacedShape>& before, const std::vecto
   return moved;
 }
 
-void add(scene::Scene& scene, const std::shared_ptr<const mesh::Mesh>& mesh, const Mat4& toWorld, bool casts) {
-  scene.instances.push_back({"", static_cast<std::uint32_t>(scene.meshes.size()), toWorld, casts});
-  scene.meshes.push_back(mesh);
-}
-
 /// The veiled parts stand after the opaque ones: instances from `veiled` on are looked through.
 struct Parts {
   scene::Scene scene;
+  std::vector<std::size_t> shapeOf;
   std::size_t veiled = 0;
+
+  void add(const std::shared_ptr<const mesh::Mesh>& mesh, const PlacedShape& shape, std::size_t index) {
+    scene.instances.push_back({"", static_cast<std::uint32_t>(scene.meshes.size()), shape.toWorld, shape.casts});
+    scene.meshes.push_back(mesh);
+    shapeOf.push_back(index);
+  }
 };
 
 Parts partsOf(const std::vector<PlacedShape>& shapes, TransparentCasters transparent) {
   Parts parts;
   parts.scene.materials = {{}};
-  for (const PlacedShape& s : shapes)
-    if (s.triangles->opaque != nullptr) add(parts.scene, s.triangles->opaque, s.toWorld, s.casts);
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    if (const auto& mesh = shapes[i].triangles->opaque; mesh != nullptr) parts.add(mesh, shapes[i], i);
   parts.veiled = parts.scene.instances.size();
-  if (transparent == TransparentCasters::opaque)
-    for (const PlacedShape& s : shapes)
-      if (s.triangles->veiled != nullptr && s.casts) add(parts.scene, s.triangles->veiled, s.toWorld, true);
+  if (transparent != TransparentCasters::opaque) return parts;
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    if (const auto& mesh = shapes[i].triangles->veiled; mesh != nullptr && shapes[i].casts)
+      parts.add(mesh, shapes[i], i);
   return parts;
 }
 
 World assemble(const Parts& parts) {
   World world;
   if (parts.scene.instances.empty()) return world;
+  world.shapeOf = parts.shapeOf;
   world.geometry = shadow::makeGeometry(parts.scene);
   if (parts.veiled == parts.scene.instances.size()) return world;
   for (const std::uint32_t instance : world.geometry->surfaces.instances)

@@ -13,6 +13,8 @@ class WorldBuilder {
  public:
   /// Null geometry where nothing casts or receives. `work`: poses and geometryBuilds are counted.
   [[nodiscard]] const World& build(const std::vector<PlacedShape>& shapes, TransparentCasters transparent, Work& work);
+  /// The last one.
+  [[nodiscard]] const World& world() const { return world_; }
 
  private:
   std::vector<PlacedShape> shapes_;
