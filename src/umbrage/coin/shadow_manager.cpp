@@ -198,7 +198,13 @@ Result<void> ShadowManager::exportScene(const std::filesystem::path& file) {
   if (!volumes) return tl::unexpected(volumes.error());
   auto* both = new SoSeparator;
   const NodeRef held = detail::hold(both);
-  both->addChild(state_->sceneRoot.get());
+  // Beside the scene's own children, so that a camera among them is the volumes' too.
+  SoNode* scene = state_->sceneRoot.get();
+  if (scene->isOfType(SoGroup::getClassTypeId()))
+    for (int i = 0; i < static_cast<SoGroup*>(scene)->getNumChildren(); ++i)
+      both->addChild(static_cast<SoGroup*>(scene)->getChild(i));
+  else
+    both->addChild(scene);
   both->addChild(*volumes);
   return writeFile(file, written(both));
 }

@@ -2,18 +2,15 @@
 
 #include <cstdint>
 
-#include "umbrage/coin/detail/stamp.hpp"
+#include "umbrage/base/error.hpp"
 
 namespace umbrage::coin::detail {
 
-/// What an OpenGL context has besides its window's own: one for all nodes of this room.
-struct ContextShare {
-  std::uint32_t cacheContext = 0;  ///< under which Coin keeps what it makes inside shadow groups
-  Stamp stamp;
-};
+/// Under what name Coin keeps what it makes inside shadow groups in an OpenGL context, by its name for the context itself. One for all nodes of this room;
+/// forgotten when Coin is told that the context goes (SoContextHandler::destructingContext, as SoQt does).
+[[nodiscard]] std::uint32_t ownCacheContext(std::uint32_t cacheContext);
 
-/// By Coin's name for the context that is current; made when first asked for, gone when Coin is told that the context goes
-/// (SoContextHandler::destructingContext, as SoQt does). REQUIRES: OpenGL 4.5 (checkTarget).
-[[nodiscard]] ContextShare& shareOf(std::uint32_t cacheContext);
+/// Errors: ErrorCode::device when the current context, or the framebuffer that is bound, cannot take shadows.
+[[nodiscard]] Result<void> checkTarget();
 
 }  // namespace umbrage::coin::detail

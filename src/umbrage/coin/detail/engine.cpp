@@ -20,6 +20,7 @@
 #include "umbrage/coin/detail/lights_off.hpp"
 #include "umbrage/coin/detail/ray_masks.hpp"
 #include "umbrage/gl/context.hpp"
+#include "umbrage/gl/stencil_pixels.hpp"
 #include "umbrage/gl/stencil_window.hpp"
 
 namespace umbrage::coin::detail {
@@ -96,6 +97,14 @@ std::vector<std::uint64_t> shiningOn(const Scan& scan, const World& world) {
   return on;
 }
 
+// Writes the stencil of a round. Outside the box of all subsets the whole is 0, or, after the first round, not drawn.
+Result<void> stamp(const Subsets& subsets, std::size_t round, const gl::Rect& whole) {
+  gl::HostScope scope;
+  gl::fillStencil(scope, round == 0 ? std::uint8_t{0} : kNotNow, whole);
+  const gl::Rect box = boxOf(subsets);
+  return gl::writeStencil(scope, stencilOf(subsets, round, box), {whole.x + box.x, whole.y + box.y, box.width, box.height});
+}
+
 }  // namespace
 
 SoNode* nobody() {
@@ -132,7 +141,7 @@ void Engine::render(SoGLRenderAction* action, const Settings& settings, const Dr
 
 Result<void> Engine::drawShadowed(SoGLRenderAction* action, const Settings& settings, const Draw& draw) {
   SoState* state = action->getState();
-  const ManyPasses passes(state, shareOf(static_cast<std::uint32_t>(action->getCacheContext())).cacheContext);
+  const ManyPasses passes(state, ownCacheContext(static_cast<std::uint32_t>(action->getCacheContext())));
   const Scan scan = extractor_.scan({action->getCurPath(), SoViewportRegionElement::get(state), &registry_,
                                      !gl::currentIsEgl(), drawsTransparent(state)});
   work_.extractions = extractor_.extractions();
@@ -167,7 +176,7 @@ Result<void> Engine::complaints(const Scan& scan) {
 }
 
 void Engine::drawVolumes(SoGLRenderAction* action, const Scan& scan, const Sight& sight, const Settings& settings) {
-  SoSeparator* volumes = volumes_.build(scan, settings, work_);
+  SoSeparator* volumes = volumes_.build(scan, settings, Caps::none, work_);
   if (volumes == nullptr) return;
   SoState* state = action->getState();
   state->push();
@@ -181,7 +190,7 @@ void Engine::drawVolumes(SoGLRenderAction* action, const Scan& scan, const Sight
 SoSeparator* Engine::volumesOf(const SoPath& path, const Settings& settings) {
   const Scan scan = extractor_.scan({&path, SbViewportRegion(640, 480), &registry_, false, true});
   work_.extractions = extractor_.extractions();
-  return volumes_.build(scan, settings, work_);
+  return volumes_.build(scan, settings, Caps::both, work_);
 }
 
 Result<void> Engine::shade(const Scan& scan, const View& view, const Settings& settings) {
@@ -217,10 +226,9 @@ Result<void> Engine::compose(SoGLRenderAction* action, const Subsets& subsets, c
     return {};
   }
   const gl::Rect whole{view->x, view->y, view->width, view->height};
-  ContextShare& share = shareOf(static_cast<std::uint32_t>(action->getCacheContext()));
   Delayed delayed = Delayed::noted;
   for (std::size_t round = 0; round < roundsOf(subsets); ++round) {
-    if (auto done = share.stamp.write(stencilOf(subsets, round), whole); !done) {
+    if (auto done = stamp(subsets, round, whole); !done) {
       if (delayed == Delayed::noted) drawPass(action, draw, delayed);
       return done;
     }
@@ -231,7 +239,8 @@ Result<void> Engine::compose(SoGLRenderAction* action, const Subsets& subsets, c
       delayed = Delayed::astray;
     }
   }
-  Stamp::clear(whole);
+  gl::HostScope scope;
+  gl::fillStencil(scope, 0, whole);
   return {};
 }
 

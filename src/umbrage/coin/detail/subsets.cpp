@@ -9,7 +9,6 @@ namespace umbrage::coin::detail {
 namespace {
 
 constexpr std::size_t kMost = 65535;
-constexpr std::uint8_t kNotNow = 255;
 
 /// Finds the code of a set of lights, told as bits.
 class Codes {
@@ -97,13 +96,26 @@ Subsets subsetsOf(std::span<const shadow::LightMask> masks, const Shining& shini
 
 std::size_t roundsOf(const Subsets& subsets) { return (subsets.all.size() + kPerRound - 1) / kPerRound; }
 
-std::vector<std::uint8_t> stencilOf(const Subsets& subsets, std::size_t round) {
-  std::vector<std::uint8_t> stencil(subsets.codes.size());
+gl::Rect boxOf(const Subsets& subsets) {
+  gl::Rect box;
+  for (const Subset& subset : subsets.all) {
+    enlarge(box, subset.box.x, subset.box.y);
+    enlarge(box, subset.box.x + subset.box.width - 1, subset.box.y + subset.box.height - 1);
+  }
+  return box;
+}
+
+std::vector<std::uint8_t> stencilOf(const Subsets& subsets, std::size_t round, const gl::Rect& box) {
+  std::vector<std::uint8_t> stencil;
+  stencil.reserve(static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height));
   const std::size_t first = round * kPerRound;
-  for (std::size_t i = 0; i < stencil.size(); ++i) {
-    const std::size_t code = subsets.codes[i];
-    const bool turn = code == 0 ? round == 0 : code > first && code <= first + kPerRound;
-    stencil[i] = !turn ? kNotNow : code == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(code - first);
+  for (int y = box.y; y < box.y + box.height; ++y) {
+    const std::uint16_t* codes = subsets.codes.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(subsets.width);
+    for (int x = box.x; x < box.x + box.width; ++x) {
+      const std::size_t code = codes[x];
+      const bool turn = code == 0 ? round == 0 : code > first && code <= first + kPerRound;
+      stencil.push_back(!turn ? kNotNow : code == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(code - first));
+    }
   }
   return stencil;
 }

@@ -36,7 +36,10 @@ inline constexpr std::size_t kMostLights = 64;
 /// How many subsets 8 bits of stencil tell apart beside those pixels that all lights reach and those whose turn it is not.
 inline constexpr std::size_t kPerRound = 254;
 [[nodiscard]] std::size_t roundsOf(const Subsets& subsets);
-/// The stencil of a round: i + 1 for the i-th subset of the round, 0 where all lights reach (in the first round), else 255.
-[[nodiscard]] std::vector<std::uint8_t> stencilOf(const Subsets& subsets, std::size_t round);
+inline constexpr std::uint8_t kNotNow = 255;
+/// Around all subsets, from the lower left of the picture.
+[[nodiscard]] gl::Rect boxOf(const Subsets& subsets);
+/// The stencil of a round inside a box: i + 1 for the i-th subset of the round, 0 where all lights reach (in the first round), else kNotNow.
+[[nodiscard]] std::vector<std::uint8_t> stencilOf(const Subsets& subsets, std::size_t round, const gl::Rect& box);
 
 }  // namespace umbrage::coin::detail

@@ -37,9 +37,10 @@ SbVec4f vertexOf(const shadow::CasterSet& casters, std::uint32_t index, const Ve
   return {float(away.x), float(away.y), float(away.z), 0.0f};
 }
 
-SoSeparator* nodesOf(const shadow::CasterSet& casters, const Vec4& light, std::optional<double> depth) {
+SoSeparator* nodesOf(const shadow::CasterSet& casters, const Vec4& light, std::optional<double> depth, Caps caps) {
   shadow::ExtrudeOptions options;
   options.endsAnywhere = depth.has_value();
+  options.caps = caps == Caps::both;
   const auto volume = shadow::extrude(casters, shadow::findSilhouette(casters, light), options);
   auto* points = new SoCoordinate4;
   auto* faces = new SoIndexedFaceSet;
@@ -116,6 +117,7 @@ struct VolumeMaker::Key {
   Mat3 turn{1.0};
   Vec4 light{0.0};
   std::optional<double> depth;
+  Caps caps = Caps::none;
   friend bool operator==(const Key&, const Key&) = default;
 };
 
@@ -129,8 +131,8 @@ VolumeMaker::VolumeMaker() = default;
 VolumeMaker::~VolumeMaker() = default;
 
 VolumeMaker::Made& VolumeMaker::volumeOf(const std::shared_ptr<const mesh::Mesh>& mesh, const Mat4& toWorld,
-                                         const Vec4& light, std::optional<double> depth, Work& work) {
-  const Key key{mesh, Mat3(toWorld), light, depth};
+                                         const Vec4& light, const Settings& settings, Caps caps, Work& work) {
+  const Key key{mesh, Mat3(toWorld), light, settings.volumeDepth, caps};
   const auto known = std::ranges::find(made_, key, &Made::key);
   if (known != made_.end()) {
     ++work.volumesReused;
@@ -138,11 +140,11 @@ VolumeMaker::Made& VolumeMaker::volumeOf(const std::shared_ptr<const mesh::Mesh>
     return *known;
   }
   ++work.volumes;
-  made_.push_back({key, hold(nodesOf(castersOf(*mesh, key.turn), light, depth)), turn_});
+  made_.push_back({key, hold(nodesOf(castersOf(*mesh, key.turn), light, key.depth, caps)), turn_});
   return made_.back();
 }
 
-SoSeparator* VolumeMaker::build(const Scan& scan, const Settings& settings, Work& work) {
+SoSeparator* VolumeMaker::build(const Scan& scan, const Settings& settings, Caps caps, Work& work) {
   ++turn_;
   SoSeparator* root = emptyRoot();
   NodeRef owned = hold(root);
@@ -154,8 +156,8 @@ SoSeparator* VolumeMaker::build(const Scan& scan, const Settings& settings, Work
       const Vec3 at(shape.toWorld[3]);
       for (const auto& mesh : castingParts(shape, settings.transparentCasters)) {
         any = true;
-        group->addChild(placed(
-            volumeOf(mesh, shape.toWorld, lightFrom(light.light, at), settings.volumeDepth, work).volume.get(), at));
+        const Made& made = volumeOf(mesh, shape.toWorld, lightFrom(light.light, at), settings, caps, work);
+        group->addChild(placed(made.volume.get(), at));
       }
     }
   }
