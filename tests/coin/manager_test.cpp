@@ -207,7 +207,8 @@ TEST_F(Managed, TellsPlacesOfASharedNodeApart) {
   begin(kOneLight +
         "DEF FLOOR Separator { Translation { translation 0 -1 0 } Cube { width 12 depth 12 height 0.1 } }\n"
         "DEF ONE Separator { DEF MOVE Translation { translation -1.5 0 0 } DEF SHARED Cube { } }\n"
-        "DEF TWO Separator { Translation { translation 1.5 0 0 } USE SHARED Translation { translation 0 0 -3 } USE SHARED }\n");
+        "DEF TWO Separator { Translation { translation 1.5 0 0 } USE SHARED Translation { translation 0 0 -3 } USE "
+        "SHARED }\n");
   ASSERT_TRUE(manager_->addLight(named<SoNode>("LAMP")));
   SoNode* shared = named<SoNode>("SHARED");
   const auto pathTo = [&](const char* parent, int child) {

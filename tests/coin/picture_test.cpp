@@ -1,6 +1,6 @@
+#include <Inventor/SoDB.h>
 #include <Inventor/SoInput.h>
 #include <Inventor/SoOutput.h>
-#include <Inventor/SoDB.h>
 #include <Inventor/actions/SoWriteAction.h>
 #include <Inventor/nodes/SoPerspectiveCamera.h>
 #include <Inventor/nodes/SoTranslation.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
 
-#define STAGE_OR_SKIP(stage)                   \
+#define STAGE_OR_SKIP(stage)                       \
   const auto stage = Stage::make(kWidth, kHeight); \
   if (!stage) GTEST_SKIP() << "no OpenGL here"
 
@@ -64,8 +64,11 @@ TEST(Picture, KnowsTheCameraInsideTheGroupToo) {
   const auto inside = sceneOf(room("", kCamera + kThreeLights, kSolids, ""));
   const auto below = sceneOf(room("", "Separator { " + kCamera + kThreeLights, kSolids + "}", ""));
   const auto expected = stage->draw(outside.get());
-  EXPECT_EQ(largestDifference(expected, judged(*stage, inside.get(), "camera_inside"), [](int, int) { return true; }).most, 0);
-  EXPECT_EQ(largestDifference(expected, judged(*stage, below.get(), "camera_below"), [](int, int) { return true; }).most, 0);
+  EXPECT_EQ(
+      largestDifference(expected, judged(*stage, inside.get(), "camera_inside"), [](int, int) { return true; }).most,
+      0);
+  EXPECT_EQ(
+      largestDifference(expected, judged(*stage, below.get(), "camera_below"), [](int, int) { return true; }).most, 0);
 }
 
 TEST(Picture, HasEveryViewThatCoinHas) {
@@ -74,7 +77,8 @@ TEST(Picture, HasEveryViewThatCoinHas) {
   stage->draw(pinhole.get());
   // What lies behind a pinhole's pixels is seen by the other way, too, for the rays are the same.
   const std::string frustum =
-      "FrustumCamera { position 1 3 8 orientation -1 0.2 0 0.32 nearDistance 0.5 farDistance 40 left -0.2 right 0.3 top 0.2 bottom -0.2 }\n";
+      "FrustumCamera { position 1 3 8 orientation -1 0.2 0 0.32 nearDistance 0.5 farDistance 40 left -0.2 right 0.3 "
+      "top 0.2 bottom -0.2 }\n";
   const std::string parallel =
       "OrthographicCamera { position 1 3 8 orientation -1 0.2 0 0.32 nearDistance 0.5 farDistance 40 height 6 }\n";
   for (const auto& [name, camera] : {std::pair{"frustum", frustum}, std::pair{"parallel", parallel}}) {
@@ -94,7 +98,8 @@ TEST(Picture, IsTheSameByTheGeneralWayOfSeeing) {
   STAGE_OR_SKIP(stage);
   // A caster that is looked through asks for the general way; one behind the camera changes nothing else.
   const std::string behind =
-      "Separator { Translation { translation 1 30 30 } Material { transparency 0.5 } Cube { width 0.1 height 0.1 depth 0.1 } }\n";
+      "Separator { Translation { translation 1 30 30 } Material { transparency 0.5 } Cube { width 0.1 height 0.1 depth "
+      "0.1 } }\n";
   const auto root = sceneOf(room("transparentCasters OPAQUE", kThreeLights, kSolids + behind));
   auto* group = groupOf(root.get());
   stage->draw(root.get());
@@ -105,7 +110,8 @@ TEST(Picture, IsTheSameByTheGeneralWayOfSeeing) {
 TEST(Picture, CastsThroughTransparentShapesAsAsked) {
   STAGE_OR_SKIP(stage);
   const std::string pane =
-      "Separator { Translation { translation 0 2 2 } Material { transparency 0.6 diffuseColor 0 0 1 } Cube { width 2 height 0.1 depth 2 } }\n"
+      "Separator { Translation { translation 0 2 2 } Material { transparency 0.6 diffuseColor 0 0 1 } Cube { width 2 "
+      "height 0.1 depth 2 } }\n"
       "Separator { Translation { translation -3 2 0 } Material { transparency 1 } Sphere { } }\n";
   const auto root = sceneOf(room("", kOneLight, kSolids + pane));
   auto* group = groupOf(root.get());
@@ -123,12 +129,14 @@ TEST(Picture, CastsThroughTransparentShapesAsAsked) {
 TEST(Picture, DrawsTransparentShapesOnceWhateverTheTypeOfTransparency) {
   STAGE_OR_SKIP(stage);
   const std::string pane =
-      "Separator { Translation { translation 0 0.5 3 } Material { transparency 0.5 diffuseColor 0 0 1 } Cube { width 2 height 2 depth 0.1 } }\n"
-      "Annotation { Translation { translation 2 0 3 } Material { transparency 0.3 } Cube { width 0.5 height 0.5 depth 0.5 } }\n";
-  for (const auto type : {SoGLRenderAction::NONE, SoGLRenderAction::SCREEN_DOOR, SoGLRenderAction::ADD,
-                          SoGLRenderAction::DELAYED_ADD, SoGLRenderAction::BLEND, SoGLRenderAction::DELAYED_BLEND,
-                          SoGLRenderAction::SORTED_OBJECT_ADD, SoGLRenderAction::SORTED_OBJECT_BLEND,
-                          SoGLRenderAction::SORTED_OBJECT_SORTED_TRIANGLE_BLEND}) {
+      "Separator { Translation { translation 0 0.5 3 } Material { transparency 0.5 diffuseColor 0 0 1 } Cube { width 2 "
+      "height 2 depth 0.1 } }\n"
+      "Annotation { Translation { translation 2 0 3 } Material { transparency 0.3 } Cube { width 0.5 height 0.5 depth "
+      "0.5 } }\n";
+  for (const auto type :
+       {SoGLRenderAction::NONE, SoGLRenderAction::SCREEN_DOOR, SoGLRenderAction::ADD, SoGLRenderAction::DELAYED_ADD,
+        SoGLRenderAction::BLEND, SoGLRenderAction::DELAYED_BLEND, SoGLRenderAction::SORTED_OBJECT_ADD,
+        SoGLRenderAction::SORTED_OBJECT_BLEND, SoGLRenderAction::SORTED_OBJECT_SORTED_TRIANGLE_BLEND}) {
     stage->action().setTransparencyType(type);
     const auto root = sceneOf(room("", kThreeLights, kSolids + pane));
     auto* group = groupOf(root.get());
@@ -181,7 +189,10 @@ TEST(Picture, ShowsCachedShapesBelowWithTheRightLights) {
 
 TEST(Picture, FewLightsOfASharedNodeAreToldApart) {
   STAGE_OR_SKIP(stage);
-  const auto root = sceneOf(room("", "Separator { DEF LAMP PointLight { location 3 5 4 } }\n Separator { USE LAMP } PointLight { location -3 5 4 }\n", kSolids));
+  const auto root = sceneOf(room(
+      "",
+      "Separator { DEF LAMP PointLight { location 3 5 4 } }\n Separator { USE LAMP } PointLight { location -3 5 4 }\n",
+      kSolids));
   auto* group = groupOf(root.get());
   stage->draw(root.get());
   ASSERT_TRUE(group->lastError());
@@ -191,7 +202,8 @@ TEST(Picture, FewLightsOfASharedNodeAreToldApart) {
 
 TEST(Picture, LightsThatAreOffAreNone) {
   STAGE_OR_SKIP(stage);
-  const auto root = sceneOf(room("", "PointLight { on FALSE } DirectionalLight { intensity 0 } PointLight { color 0 0 0 }", kSolids));
+  const auto root =
+      sceneOf(room("", "PointLight { on FALSE } DirectionalLight { intensity 0 } PointLight { color 0 0 0 }", kSolids));
   stage->draw(root.get());
   EXPECT_TRUE(groupOf(root.get())->report().lights.empty());
   EXPECT_EQ(groupOf(root.get())->report().passes, 1u);
@@ -209,7 +221,8 @@ TEST(Picture, OfSeveralViewersOnOneSceneIsEachViewersOwn) {
     return root;
   };
   const auto one = view(kCamera);
-  const auto other = view("PerspectiveCamera { position -5 4 5 orientation -0.55 -0.75 -0.3 0.9 nearDistance 0.5 farDistance 40 }");
+  const auto other =
+      view("PerspectiveCamera { position -5 4 5 orientation -0.55 -0.75 -0.3 0.9 nearDistance 0.5 farDistance 40 }");
   auto* group = groupOf(scene.get());
   for (int i = 0; i < 2; ++i) {
     first->enter();
@@ -286,7 +299,8 @@ TEST(Picture, ComesBackFromAFile) {
   EXPECT_EQ(group->transparentCasters.getValue(), int(SoExactShadowGroup::OPAQUE));
   EXPECT_EQ(group->volumeDepth.getValue(), 3.0f);
   // Numbers are written with fewer digits than they have.
-  const auto found = largestDifference(stage->draw(root.get()), stage->draw(again.get()), [](int, int) { return true; });
+  const auto found =
+      largestDifference(stage->draw(root.get()), stage->draw(again.get()), [](int, int) { return true; });
   EXPECT_LE(found.pixels, 20u);
 }
 

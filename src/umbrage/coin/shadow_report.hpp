@@ -27,7 +27,10 @@ struct ShadowReport {
   std::optional<scene::Camera> camera;  ///< none where no pinhole camera says it: parallel, shifted and stretched views
   std::vector<LightShadow> lights;      ///< in the order in which Coin meets them
   std::size_t passes = 0;               ///< times Coin drew the scene
-  std::string method;                   ///< as Umbrage names it: "hybrid_cpu"
+  /// Milliseconds of wall clock: "scene" (what changed is asked of Coin), "geometry" (put together), "prepare" (what the method builds for a geometry),
+  /// "shadows", "drawing". What needed not be done is not there; drawing is not waited for.
+  std::vector<shadow::PhaseTime> phases;
+  std::string method;  ///< as Umbrage names it: "hybrid_cpu"
 };
 
 }  // namespace umbrage::coin

@@ -102,7 +102,8 @@ Result<void> stamp(const Subsets& subsets, std::size_t round, const gl::Rect& wh
   gl::HostScope scope;
   gl::fillStencil(scope, round == 0 ? std::uint8_t{0} : kNotNow, whole);
   const gl::Rect box = boxOf(subsets);
-  return gl::writeStencil(scope, stencilOf(subsets, round, box), {whole.x + box.x, whole.y + box.y, box.width, box.height});
+  return gl::writeStencil(scope, stencilOf(subsets, round, box),
+                          {whole.x + box.x, whole.y + box.y, box.width, box.height});
 }
 
 }  // namespace
@@ -141,26 +142,31 @@ void Engine::render(SoGLRenderAction* action, const Settings& settings, const Dr
 
 Result<void> Engine::drawShadowed(SoGLRenderAction* action, const Settings& settings, const Draw& draw) {
   SoState* state = action->getState();
+  phases_.clear();
+  shadow::PhaseClock clock(phases_);
   const ManyPasses passes(state, ownCacheContext(static_cast<std::uint32_t>(action->getCacheContext())));
   const Scan scan = extractor_.scan({action->getCurPath(), SoViewportRegionElement::get(state), &registry_,
                                      !gl::currentIsEgl(), drawsTransparent(state)});
   work_.extractions = extractor_.extractions();
+  clock.end("scene");
   ++work_.frames;
   passes_ = 0;
   const auto sight = sightOf(state, scan);
   const auto view = sight ? viewOf(*sight) : std::nullopt;
-  const auto subsets = shadowsOf(scan, view, settings);
+  const auto subsets = shadowsOf(scan, view, settings, clock);
   if (auto done = compose(action, subsets ? *subsets : Subsets{}, view, draw); !done) return done;
+  clock.end("drawing");
   if (!subsets) return tl::unexpected(subsets.error());
   if (settings.sceneType == SceneType::visibleVolumes && view) drawVolumes(action, scan, *sight, settings);
   return complaints(scan);
 }
 
-Result<Subsets> Engine::shadowsOf(const Scan& scan, const std::optional<View>& view, const Settings& settings) {
+Result<Subsets> Engine::shadowsOf(const Scan& scan, const std::optional<View>& view, const Settings& settings,
+                                  shadow::PhaseClock& clock) {
   if (scan.shapes.empty()) return Subsets{};
   if (!view) return fail(ErrorCode::usage, "no shadows: there is no camera");
   if (scan.lights.size() > kMostLights) return fail(ErrorCode::unsupported, "no shadows: more than 64 lights");
-  if (auto done = shade(scan, *view, settings); !done) return tl::unexpected(done.error());
+  if (auto done = shade(scan, *view, settings, clock); !done) return tl::unexpected(done.error());
   const std::vector<std::uint64_t> shining = shiningOn(scan, builder_.world());
   return subsetsOf(reach_.masks, {&reach_.triangle, shining});
 }
@@ -193,8 +199,9 @@ SoSeparator* Engine::volumesOf(const SoPath& path, const Settings& settings) {
   return volumes_.build(scan, settings, Caps::both, work_);
 }
 
-Result<void> Engine::shade(const Scan& scan, const View& view, const Settings& settings) {
+Result<void> Engine::shade(const Scan& scan, const View& view, const Settings& settings, shadow::PhaseClock& clock) {
   const World& world = builder_.build(scan.shapes, settings.transparentCasters, work_);
+  clock.end("geometry");
   reportIsOld_ = true;
   auto places = placesOf(scan.lights);
   const bool same = geometry_ == world.geometry && view_ == view && method_ == settings.method && places_ == places;
@@ -208,9 +215,12 @@ Result<void> Engine::shade(const Scan& scan, const View& view, const Settings& s
     std::vector<scene::Light> lights;
     for (const PlacedLight& light : scan.lights) lights.push_back(withoutCone(light.light));
     ++work_.shades;
-    auto reach = masks_.masks(world, view, lights, settings.method);
+    if (auto done = masks_.prepare(world, view, settings.method); !done) return done;
+    clock.end("prepare");
+    auto reach = masks_.masks(world, view, lights);
     if (!reach) return tl::unexpected(reach.error());
     reach_ = std::move(*reach);
+    clock.end("shadows");
   }
   view_ = view;
   method_ = settings.method;
@@ -261,7 +271,7 @@ void Engine::drawSubset(SoGLRenderAction* action, const Subset* subset, std::uin
 const ShadowReport& Engine::report() const {
   if (!reportIsOld_) return report_;
   reportIsOld_ = false;
-  report_ = {geometry_, view_ ? view_->pinhole : std::nullopt, {}, passes_, masks_.used()};
+  report_ = {geometry_, view_ ? view_->pinhole : std::nullopt, {}, passes_, phases_, masks_.used()};
   for (std::size_t i = 0; i < reach_.masks.size(); ++i) {
     report_.lights.push_back({lights_[i].node, lights_[i].light, reach_.masks[i], reach_.masks[i]});
     cutCone(report_.lights.back().mask, lights_[i].light, *view_, geometry_->surfaces, reach_.triangle);

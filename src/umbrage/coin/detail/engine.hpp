@@ -11,6 +11,7 @@
 #include "umbrage/coin/detail/world_builder.hpp"
 #include "umbrage/coin/settings.hpp"
 #include "umbrage/coin/shadow_report.hpp"
+#include "umbrage/shadow/phase_clock.hpp"
 
 class SoGLRenderAction;
 class SoPath;
@@ -50,8 +51,10 @@ class Engine {
  private:
   [[nodiscard]] Result<void> drawShadowed(SoGLRenderAction* action, const Settings& settings, const Draw& draw);
   void drawVolumes(SoGLRenderAction* action, const Scan& scan, const Sight& sight, const Settings& settings);
-  [[nodiscard]] Result<void> shade(const Scan& scan, const View& view, const Settings& settings);
-  [[nodiscard]] Result<Subsets> shadowsOf(const Scan& scan, const std::optional<View>& view, const Settings& settings);
+  [[nodiscard]] Result<void> shade(const Scan& scan, const View& view, const Settings& settings,
+                                   shadow::PhaseClock& clock);
+  [[nodiscard]] Result<Subsets> shadowsOf(const Scan& scan, const std::optional<View>& view, const Settings& settings,
+                                          shadow::PhaseClock& clock);
   [[nodiscard]] Result<void> compose(SoGLRenderAction* action, const Subsets& subsets, const std::optional<View>& view,
                                      const Draw& draw);
   void drawSubset(SoGLRenderAction* action, const Subset* subset, std::uint8_t stencil, const gl::Rect& whole,
@@ -75,6 +78,7 @@ class Engine {
   // What is told of them, made when asked for:
   std::vector<PlacedLight> lights_;
   std::size_t passes_ = 0;
+  std::vector<shadow::PhaseTime> phases_;
   mutable ShadowReport report_;
   mutable bool reportIsOld_ = false;
 };

@@ -77,29 +77,32 @@ Result<void> MaskMaker::choose(Method method) {
   return {};
 }
 
-Result<Reach> MaskMaker::byTechnique(const World& world, const View& view, std::span<const scene::Light> lights) {
+Result<void> MaskMaker::prepareTechnique(const World& world) {
+  if (prepared_ == world.geometry) return {};
+  Result<void> ready;
+  elsewhere(runsOnOpenGl(technique_), [&] { ready = technique_->prepare(world.geometry); });
+  prepared_ = ready ? world.geometry : nullptr;
+  return ready;
+}
+
+Result<void> MaskMaker::prepareRays(const World& world) {
+  if (traced_ == world.geometry) return {};
+  auto built = trace::Occlusion::build({world.geometry, &world.geometry->surfaces});
+  if (!built) return tl::unexpected(built.error());
+  occlusion_.emplace(std::move(*built));
+  traced_ = world.geometry;
+  return {};
+}
+
+Result<Reach> MaskMaker::byTechnique(const View& view, std::span<const scene::Light> lights) {
   Result<shadow::Shading> shading;
-  elsewhere(runsOnOpenGl(technique_), [&] {
-    Result<void> ready;
-    if (prepared_ != world.geometry) ready = technique_->prepare(world.geometry);
-    prepared_ = ready ? world.geometry : nullptr;
-    if (ready)
-      shading = technique_->shade({*view.pinhole, lights});
-    else
-      shading = tl::unexpected(ready.error());
-  });
+  elsewhere(runsOnOpenGl(technique_), [&] { shading = technique_->shade({*view.pinhole, lights}); });
   if (!shading) return tl::unexpected(shading.error());
   used_ = technique_->traits().name;
   return Reach{std::move(shading->surface.triangle), std::move(shading->masks)};
 }
 
 Result<Reach> MaskMaker::byRays(const World& world, const View& view, std::span<const scene::Light> lights) {
-  if (traced_ != world.geometry) {
-    auto built = trace::Occlusion::build({world.geometry, &world.geometry->surfaces});
-    if (!built) return tl::unexpected(built.error());
-    occlusion_.emplace(std::move(*built));
-    traced_ = world.geometry;
-  }
   auto seen = look(*occlusion_, view, world.unseen);
   if (!seen) return tl::unexpected(seen.error());
   Reach reach;
@@ -113,12 +116,17 @@ Result<Reach> MaskMaker::byRays(const World& world, const View& view, std::span<
   return reach;
 }
 
-Result<Reach> MaskMaker::masks(const World& world, const View& view, std::span<const scene::Light> lights,
-                               Method method) {
-  const bool looksThrough = !world.unseen.empty();
-  if (!view.pinhole || looksThrough) return byRays(world, view, lights);
-  if (auto done = choose(method); !done) return tl::unexpected(done.error());
-  return byTechnique(world, view, lights);
+// Techniques take pinholes, and see whatever casts.
+bool MaskMaker::needsRays(const World& world, const View& view) { return !view.pinhole || !world.unseen.empty(); }
+
+Result<void> MaskMaker::prepare(const World& world, const View& view, Method method) {
+  if (needsRays(world, view)) return prepareRays(world);
+  if (auto done = choose(method); !done) return done;
+  return prepareTechnique(world);
+}
+
+Result<Reach> MaskMaker::masks(const World& world, const View& view, std::span<const scene::Light> lights) {
+  return needsRays(world, view) ? byRays(world, view, lights) : byTechnique(view, lights);
 }
 
 }  // namespace umbrage::coin::detail

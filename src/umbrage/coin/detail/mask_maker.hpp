@@ -35,15 +35,19 @@ class MaskMaker {
   MaskMaker& operator=(const MaskMaker&) = delete;
   ~MaskMaker();
 
-  /// Errors: ErrorCode::device when the method cannot run here.
-  [[nodiscard]] Result<Reach> masks(const World& world, const View& view, std::span<const scene::Light> lights,
-                                    Method method);
+  /// Builds what the method needs for the world. Errors: ErrorCode::device when it cannot run here.
+  [[nodiscard]] Result<void> prepare(const World& world, const View& view, Method method);
+  /// REQUIRES: prepare() with the same succeeded. Errors: ErrorCode::device when memory runs out.
+  [[nodiscard]] Result<Reach> masks(const World& world, const View& view, std::span<const scene::Light> lights);
   /// Who made the last masks, as Umbrage names it.
   [[nodiscard]] const std::string& used() const { return used_; }
 
  private:
   [[nodiscard]] Result<void> choose(Method method);
-  [[nodiscard]] Result<Reach> byTechnique(const World& world, const View& view, std::span<const scene::Light> lights);
+  [[nodiscard]] Result<void> prepareTechnique(const World& world);
+  [[nodiscard]] Result<void> prepareRays(const World& world);
+  [[nodiscard]] static bool needsRays(const World& world, const View& view);
+  [[nodiscard]] Result<Reach> byTechnique(const View& view, std::span<const scene::Light> lights);
   [[nodiscard]] Result<Reach> byRays(const World& world, const View& view, std::span<const scene::Light> lights);
   void drop();
 

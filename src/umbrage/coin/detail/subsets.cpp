@@ -110,7 +110,8 @@ std::vector<std::uint8_t> stencilOf(const Subsets& subsets, std::size_t round, c
   stencil.reserve(static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height));
   const std::size_t first = round * kPerRound;
   for (int y = box.y; y < box.y + box.height; ++y) {
-    const std::uint16_t* codes = subsets.codes.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(subsets.width);
+    const std::uint16_t* codes =
+        subsets.codes.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(subsets.width);
     for (int x = box.x; x < box.x + box.width; ++x) {
       const std::size_t code = codes[x];
       const bool turn = code == 0 ? round == 0 : code > first && code <= first + kPerRound;
