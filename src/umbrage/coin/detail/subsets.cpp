@@ -17,10 +17,8 @@ class Codes {
 
   std::uint16_t of(std::uint64_t off, std::size_t lights) {
     if (off == 0) return 0;
-    if (off == lastOff_) return last_;  // neighbours are mostly alike
-    lastOff_ = off;
-    if (const auto known = known_.find(off); known != known_.end()) return last_ = known->second;
-    return last_ = out_.all.size() < kMost ? add(off, lights) : std::uint16_t{0};
+    if (const auto known = known_.find(off); known != known_.end()) return known->second;
+    return out_.all.size() < kMost ? add(off, lights) : std::uint16_t{0};
   }
 
  private:
@@ -33,8 +31,6 @@ class Codes {
   }
   Subsets& out_;
   std::unordered_map<std::uint64_t, std::uint16_t> known_;
-  std::uint64_t lastOff_ = 0;
-  std::uint16_t last_ = 0;
 };
 
 void offInRow(std::span<const shadow::LightMask> masks, int y, std::vector<std::uint64_t>& off) {
@@ -64,13 +60,6 @@ void enlarge(gl::Rect& box, int x, int y) {
   box.height = top - box.y;
 }
 
-void measure(Subsets& out) {
-  const std::uint16_t* code = out.codes.data();
-  for (int y = 0; y < out.height; ++y)
-    for (int x = 0; x < out.width; ++x, ++code)
-      if (*code != 0) enlarge(out.all[*code - 1u].box, x, y);
-}
-
 }  // namespace
 
 Subsets subsetsOf(std::span<const shadow::LightMask> masks, const Shining& shining) {
@@ -86,11 +75,16 @@ Subsets subsetsOf(std::span<const shadow::LightMask> masks, const Shining& shini
     offInRow(masks, out.height - 1 - y, off);
     if (!shining.lights.empty()) keepShining(shining, out.height - 1 - y, off);
     std::uint16_t* row = out.codes.data() + static_cast<std::size_t>(y) * off.size();
-    for (std::size_t x = 0; x < off.size(); ++x) {
-      row[x] = codes.of(off[x], masks.size());
+    // Neighbours are mostly alike, so what costs is done once a run.
+    for (std::size_t x = 0, end = 0; x < off.size(); x = end) {
+      for (end = x + 1; end < off.size() && off[end] == off[x];) ++end;
+      const std::uint16_t code = codes.of(off[x], masks.size());
+      std::fill(row + x, row + end, code);
+      if (code == 0) continue;
+      enlarge(out.all[code - 1u].box, static_cast<int>(x), y);
+      enlarge(out.all[code - 1u].box, static_cast<int>(end) - 1, y);
     }
   }
-  measure(out);
   return out;
 }
 
