@@ -75,7 +75,7 @@ class Editor {
     search.apply(root_);
     std::vector<SoNode*> found;
     for (int i = 0; i < search.getPaths().getLength(); ++i)
-      found.push_back(static_cast<SoFullPath*>(search.getPaths()[i])->getTail());
+      found.push_back(inventor::FullPath(*search.getPaths()[i]).tail());
     return found;
   }
   template <class Node>

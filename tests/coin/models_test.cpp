@@ -1,5 +1,4 @@
 #include <Inventor/SoDB.h>
-#include <Inventor/SoFullPath.h>
 #include <Inventor/SoInput.h>
 #include <Inventor/actions/SoGetBoundingBoxAction.h>
 #include <Inventor/actions/SoSearchAction.h>
@@ -16,6 +15,7 @@
 #include "coin/scenes.hpp"
 #include "coin/stage.hpp"
 #include "coin/truth.hpp"
+#include "umbrage/inventor/full_path.hpp"
 
 // The Inventor and VRML files of the test data that load, under one light and three, drawn by Coin with shadows.
 namespace umbrage::coin::test {
@@ -52,11 +52,12 @@ void removeCameras(SoNode* root) {
     search.setType(SoCamera::getClassTypeId());
     search.setSearchingAll(TRUE);
     search.apply(root);
-    auto* path = static_cast<SoFullPath*>(search.getPath());
-    if (path == nullptr || path->getLength() < 2) return;
-    SoNode* parent = path->getNodeFromTail(1);
+    if (search.getPath() == nullptr) return;
+    const inventor::FullPath path(*search.getPath());
+    if (path.length() < 2) return;
+    SoNode* parent = path.node(path.length() - 2);
     if (!parent->isOfType(SoGroup::getClassTypeId())) return;
-    static_cast<SoGroup*>(parent)->removeChild(path->getTail());
+    static_cast<SoGroup*>(parent)->removeChild(path.tail());
   }
 }
 
@@ -90,8 +91,15 @@ std::string cameraFor(const SbBox3f& box) {
       c[0], c[1] + 1.5f * r, c[2] + 2.6f * r, 0.05f * r, 20 * r);
 }
 
+// Faces that name more materials than there are: Coin reads beyond its arrays when it draws them, so its picture is whatever was there.
+bool isDrawnByChance(const std::filesystem::path& file) {
+  return file.parent_path().filename() == "oiv_compliance" &&
+         (file.stem() == "indexedfaceset" || file.stem() == "indexedtrianglestripset");
+}
+
 /// One model under so many lights; false when there is nothing in it that casts.
-bool judgeModel(Stage& stage, SoSeparator* model, int lights, const std::string& name) {
+bool judgeModel(Stage& stage, SoSeparator* model, int lights, const std::filesystem::path& file) {
+  const std::string name = file.stem().string();
   SoGetBoundingBoxAction bounds(SbViewportRegion(320, 240));
   bounds.apply(model);
   const SbBox3f box = bounds.getBoundingBox();
@@ -104,7 +112,7 @@ bool judgeModel(Stage& stage, SoSeparator* model, int lights, const std::string&
   EXPECT_FALSE(group->lastError()) << name << ": " << group->lastError()->text();
   const Strayed s = strayed(group->report());
   EXPECT_LE(double(s.far), kWorstShare * double(s.covered)) << name << ": " << s.differing << " differ";
-  expectCoinsOwnPicture(stage, root.get(), *group, picture);
+  if (!isDrawnByChance(file)) expectCoinsOwnPicture(stage, root.get(), *group, picture);
   std::printf("%-48s %d lights %8zu covered %5zu differing %3zu far %2zu passes\n", name.c_str(), lights, s.covered,
               s.differing, s.far, group->report().passes);
   save(picture, fmt::format("model_{}_{}", name, lights));
@@ -127,7 +135,7 @@ TEST_P(Models, HaveTheShadowsOfRaysInCoinsOwnLight) {
     const auto held = hold(model);
     ++read;
     removeCameras(model);
-    judged += judgeModel(*stage, model, GetParam(), file.stem().string());
+    judged += judgeModel(*stage, model, GetParam(), file);
   }
   std::printf("%zu files, %zu load, %zu cast\n", files.size(), read, judged);
   EXPECT_GT(judged, 0u);

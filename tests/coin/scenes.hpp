@@ -5,6 +5,7 @@
 #include <string>
 
 #include "umbrage/coin/exact_shadow_group.hpp"
+#include "umbrage/inventor/full_path.hpp"
 
 namespace umbrage::coin::test {
 
@@ -39,8 +40,7 @@ Node* find(SoNode* root, const char* name) {
   search.setName(name);
   search.setSearchingAll(TRUE);
   search.apply(root);
-  return search.getPath() != nullptr ? static_cast<Node*>(static_cast<SoFullPath*>(search.getPath())->getTail())
-                                     : nullptr;
+  return search.getPath() != nullptr ? static_cast<Node*>(inventor::FullPath(*search.getPath()).tail()) : nullptr;
 }
 
 inline SoExactShadowGroup* groupOf(SoNode* root) { return find<SoExactShadowGroup>(root, "GROUP"); }

@@ -1,6 +1,5 @@
 #include "umbrage/coin/shadow_manager.hpp"
 
-#include <Inventor/SoFullPath.h>
 #include <Inventor/SoOutput.h>
 #include <Inventor/actions/SoSearchAction.h>
 #include <Inventor/actions/SoWriteAction.h>
@@ -16,6 +15,7 @@
 #include "umbrage/coin/detail/lights.hpp"
 #include "umbrage/coin/exact_shadow_group.hpp"
 #include "umbrage/inventor/check.hpp"
+#include "umbrage/inventor/full_path.hpp"
 
 namespace umbrage::coin {
 namespace {
@@ -36,7 +36,7 @@ SoEnvironment* firstEnvironment(SoNode* root) {
   search.setSearchingAll(TRUE);
   search.apply(root);
   if (search.getPath() == nullptr) return nullptr;
-  return static_cast<SoEnvironment*>(static_cast<SoFullPath*>(search.getPath())->getTail());
+  return static_cast<SoEnvironment*>(inventor::FullPath(*search.getPath()).tail());
 }
 
 bool holds(const std::vector<NodeRef>& nodes, const SoNode* node) {
@@ -136,8 +136,7 @@ Result<void> ShadowManager::addObject(SoNode* object) {
 }
 
 Result<void> ShadowManager::addObject(const SoPath* object) {
-  if (object == nullptr || static_cast<const SoFullPath*>(object)->getLength() == 0)
-    return fail(ErrorCode::usage, "no object");
+  if (object == nullptr || inventor::FullPath(*object).length() == 0) return fail(ErrorCode::usage, "no object");
   auto& places = state_->registry().places;
   if (std::ranges::any_of(places, [&](const detail::Place& place) { return place.is(*object); }))
     return fail(ErrorCode::usage, "this object is there already");

@@ -1,6 +1,6 @@
 #include "umbrage/coin/detail/extractor.hpp"
 
-#include <Inventor/SoFullPath.h>
+#include <Inventor/SoPath.h>
 #include <Inventor/SoPrimitiveVertex.h>
 #include <Inventor/VRMLnodes/SoVRMLLight.h>
 #include <Inventor/actions/SoCallbackAction.h>
@@ -21,6 +21,7 @@
 #include "umbrage/coin/detail/lights.hpp"
 #include "umbrage/coin/detail/matrices.hpp"
 #include "umbrage/inventor/check.hpp"
+#include "umbrage/inventor/full_path.hpp"
 #include "umbrage/mesh/weld.hpp"
 
 namespace umbrage::coin::detail {
@@ -173,8 +174,8 @@ Scan Extractor::Traversal::run() {
 }
 
 bool Extractor::Traversal::isForgotten(const SoPath* path) const {
-  const auto* full = static_cast<const SoFullPath*>(path);
-  return std::ranges::any_of(forgotten_, [&](const SoNode* node) { return full->containsNode(node) != FALSE; });
+  const inventor::FullPath full(*path);
+  return std::ranges::any_of(forgotten_, [&](const SoNode* node) { return full.contains(node); });
 }
 
 Extractor::Traversal::Response Extractor::Traversal::enter(SoCallbackAction* action, const SoNode* shape) {
@@ -232,13 +233,12 @@ void Extractor::Traversal::leave(SoCallbackAction* action, const SoNode* shape) 
 
 void Extractor::Traversal::place(SoCallbackAction* action, std::shared_ptr<const ShapeTriangles> triangles) {
   if (triangles->opaque == nullptr && triangles->veiled == nullptr) return;
-  const auto* path = static_cast<const SoFullPath*>(action->getCurPath());
   SoState* state = action->getState();
   const bool styled = state->isElementEnabled(SoShadowStyleElement::getClassStackIndex()) != FALSE;
   const bool style = !styled || (SoShadowStyleElement::get(state) & SoShadowStyleElement::CASTS_SHADOW) != 0;
   scan_.shining.push_back(lightsAt(state));
-  scan_.shapes.push_back(
-      {std::move(triangles), matrixOf(action->getModelMatrix()), style && request_.registry->casts(*path)});
+  scan_.shapes.push_back({std::move(triangles), matrixOf(action->getModelMatrix()),
+                          style && request_.registry->casts(*action->getCurPath())});
 }
 
 float Extractor::Traversal::transparencyAt(SoState* state, int index) const {
@@ -271,9 +271,8 @@ void Extractor::Traversal::see(SoCallbackAction* action) {
 }
 
 void Extractor::Traversal::meetLight(SoCallbackAction* action, const SoNode* node) {
-  const auto* path = static_cast<const SoFullPath*>(action->getCurPath());
-  const SoNode* group = static_cast<const SoFullPath*>(request_.path)->getTail();
-  if (!path->containsNode(group) || !request_.registry->shadows(*node)) return;
+  const SoNode* group = inventor::FullPath(*request_.path).tail();
+  if (!inventor::FullPath(*action->getCurPath()).contains(group) || !request_.registry->shadows(*node)) return;
   const auto light = lightOf(*node, matrixOf(action->getModelMatrix()));
   if (!light) return;
   // Callbacks show nodes as const; the caller, who has the path, may change them.

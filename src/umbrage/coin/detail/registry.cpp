@@ -1,12 +1,15 @@
 #include "umbrage/coin/detail/registry.hpp"
 
-#include <Inventor/SoFullPath.h>
 #include <Inventor/nodes/SoNode.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "umbrage/inventor/full_path.hpp"
+
 namespace umbrage::coin::detail {
+
+using inventor::FullPath;
 
 void Unref::operator()(SoNode* node) const { node->unref(); }
 
@@ -17,8 +20,8 @@ NodeRef hold(SoNode* node) {
 
 Place::Place(const SoPath& path) : live_(path.copy()) {
   live_->ref();
-  const auto& full = static_cast<const SoFullPath&>(path);
-  for (int i = 0; i < full.getLength(); ++i) nodes_.push_back(hold(full.getNode(i)));
+  const FullPath full(path);
+  for (int i = 0; i < full.length(); ++i) nodes_.push_back(hold(full.node(i)));
 }
 
 Place::Place(Place&& other) noexcept : nodes_(std::move(other.nodes_)), live_(std::exchange(other.live_, nullptr)) {}
@@ -33,14 +36,14 @@ Place::~Place() {
   if (live_ != nullptr) live_->unref();
 }
 
-bool Place::holds(const SoFullPath& path) const {
-  const auto& live = static_cast<const SoFullPath&>(*live_);
-  const bool whole = live.getLength() == static_cast<int>(nodes_.size());
+bool Place::holds(const SoPath& given) const {
+  const FullPath path(given), live(*live_);
+  const bool whole = live.length() == static_cast<int>(nodes_.size());
   std::size_t met = 0;
   int last = -2;  // where the node before was met
-  for (int i = 0; i < path.getLength() && met < nodes_.size(); ++i) {
-    if (path.getNode(i) != nodes_[met].get()) continue;
-    const bool sameChild = !whole || last != i - 1 || path.getIndex(i) == live.getIndex(static_cast<int>(met));
+  for (int i = 0; i < path.length() && met < nodes_.size(); ++i) {
+    if (path.node(i) != nodes_[met].get()) continue;
+    const bool sameChild = !whole || last != i - 1 || path.index(i) == live.index(static_cast<int>(met));
     if (!sameChild) return false;
     last = i;
     ++met;
@@ -49,20 +52,20 @@ bool Place::holds(const SoFullPath& path) const {
 }
 
 bool Place::is(const SoPath& path) const {
-  const auto& full = static_cast<const SoFullPath&>(path);
-  const auto& live = static_cast<const SoFullPath&>(*live_);
-  if (full.getLength() != static_cast<int>(nodes_.size()) || live.getLength() != full.getLength()) return false;
-  for (int i = 0; i < full.getLength(); ++i)
-    if (full.getNode(i) != live.getNode(i) || (i > 0 && full.getIndex(i) != live.getIndex(i))) return false;
+  const FullPath full(path), live(*live_);
+  if (full.length() != static_cast<int>(nodes_.size()) || live.length() != full.length()) return false;
+  for (int i = 0; i < full.length(); ++i)
+    if (full.node(i) != live.node(i) || (i > 0 && full.index(i) != live.index(i))) return false;
   return true;
 }
 
-bool Registry::casts(const SoFullPath& shape) const {
+bool Registry::casts(const SoPath& path) const {
   if (everything) return true;
+  const FullPath shape(path);
   for (const NodeRef& object : objects)
-    for (int i = 0; i < shape.getLength(); ++i)
-      if (shape.getNode(i) == object.get()) return true;
-  return std::ranges::any_of(places, [&](const Place& place) { return place.holds(shape); });
+    for (int i = 0; i < shape.length(); ++i)
+      if (shape.node(i) == object.get()) return true;
+  return std::ranges::any_of(places, [&](const Place& place) { return place.holds(path); });
 }
 
 bool Registry::shadows(const SoNode& light) const {

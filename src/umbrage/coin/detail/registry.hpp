@@ -3,7 +3,6 @@
 #include <memory>
 #include <vector>
 
-class SoFullPath;
 class SoNode;
 class SoPath;
 
@@ -27,7 +26,7 @@ class Place {
 
   /// Whether `path` passes through the place: its nodes are met in order, whatever stands before and between; where the way has not been cut since,
   /// as the children that they were.
-  [[nodiscard]] bool holds(const SoFullPath& path) const;
+  [[nodiscard]] bool holds(const SoPath& path) const;
   [[nodiscard]] bool is(const SoPath& path) const;
 
  private:
@@ -41,7 +40,7 @@ struct Registry {
   std::vector<NodeRef> lights, objects;
   std::vector<Place> places;
 
-  [[nodiscard]] bool casts(const SoFullPath& shape) const;
+  [[nodiscard]] bool casts(const SoPath& shape) const;
   [[nodiscard]] bool shadows(const SoNode& light) const;
 };
 

@@ -38,15 +38,23 @@ Parts partsOf(const std::vector<PlacedShape>& shapes, TransparentCasters transpa
   return parts;
 }
 
-World assemble(const Parts& parts) {
+World assemble(const Parts& parts, scene::Welding& welding) {
   World world;
   if (parts.scene.instances.empty()) return world;
   world.shapeOf = parts.shapeOf;
-  world.geometry = shadow::makeGeometry(parts.scene);
+  auto surfaces = scene::flatten(parts.scene, welding);
+  auto casters = shadow::buildCasters(surfaces);
+  world.geometry = std::make_shared<const shadow::Geometry>(shadow::Geometry{std::move(surfaces), std::move(casters)});
   if (parts.veiled == parts.scene.instances.size()) return world;
   for (const std::uint32_t instance : world.geometry->surfaces.instances)
     world.unseen.push_back(instance >= parts.veiled ? 1 : 0);
   return world;
+}
+
+bool onlyMoved(const std::vector<PlacedShape>& before, const std::vector<PlacedShape>& now) {
+  return std::ranges::equal(before, now, [](const PlacedShape& a, const PlacedShape& b) {
+    return a.triangles == b.triangles && a.casts == b.casts;
+  });
 }
 
 }  // namespace
@@ -55,10 +63,21 @@ const World& WorldBuilder::build(const std::vector<PlacedShape>& shapes, Transpa
   if (shapes == shapes_ && transparent == transparent_) return world_;
   work.poses += movedShapes(shapes_, shapes);
   ++work.geometryBuilds;
+  const bool moved = transparent == transparent_ && onlyMoved(shapes_, shapes) && move(shapes);
   shapes_ = shapes;
   transparent_ = transparent;
-  world_ = assemble(partsOf(shapes, transparent));
+  if (!moved) world_ = assemble(partsOf(shapes, transparent), welding_);
   return world_;
+}
+
+bool WorldBuilder::move(const std::vector<PlacedShape>& shapes) {
+  if (world_.geometry == nullptr) return false;
+  auto surfaces = scene::flattenMoved(partsOf(shapes, transparent_).scene, world_.geometry->surfaces, welding_);
+  if (!surfaces) return false;
+  auto casters = shadow::moveCasters(*surfaces, world_.geometry->casters);
+  world_.geometry =
+      std::make_shared<const shadow::Geometry>(shadow::Geometry{std::move(*surfaces), std::move(casters)});
+  return true;
 }
 
 }  // namespace umbrage::coin::detail

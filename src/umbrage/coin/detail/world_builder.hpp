@@ -8,7 +8,8 @@
 
 namespace umbrage::coin::detail {
 
-/// Puts the world together from placed shapes, and does nothing where they are those of the time before.
+/// Puts the world together from placed shapes. Where they are those of the time before, it does nothing; where they only moved, the world moves with them,
+/// and nothing is connected anew.
 class WorldBuilder {
  public:
   /// Null geometry where nothing casts or receives. `work`: poses and geometryBuilds are counted.
@@ -17,9 +18,11 @@ class WorldBuilder {
   [[nodiscard]] const World& world() const { return world_; }
 
  private:
+  [[nodiscard]] bool move(const std::vector<PlacedShape>& shapes);
   std::vector<PlacedShape> shapes_;
   TransparentCasters transparent_ = TransparentCasters::none;
   World world_;
+  scene::Welding welding_;  ///< of world_
 };
 
 }  // namespace umbrage::coin::detail
