@@ -15,7 +15,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <iterator>
 #include <numbers>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -103,29 +105,36 @@ double milliseconds(Stage& stage, SoNode* root) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Medians of a frame and, for exact shadows, of what goes before shadows are computed: the work that changes ask for.
+constexpr const char* kPhases[] = {"scene", "geometry", "prepare", "shadows", "drawing"};
+
+/// Medians of a frame and, for exact shadows, of its phases. What goes before shadows are computed is what changes ask for.
 struct Times {
   double frame = 0.0, update = 0.0;
+  std::vector<double> phases;
 };
 
-double updateOf(const ShadowReport& report) {
-  double sum = 0.0;
+double phaseOf(const ShadowReport& report, std::string_view name) {
   for (const shadow::PhaseTime& phase : report.phases)
-    if (phase.name == "scene" || phase.name == "geometry" || phase.name == "prepare") sum += phase.milliseconds;
-  return sum;
+    if (phase.name == name) return phase.milliseconds;
+  return 0.0;
 }
 
 Times measure(Stage& stage, const Scene& scene, const std::function<void(const Scene&, int)>& change) {
   std::vector<double> frames, updates;
-  const auto* exact = scene.group->isOfType(SoExactShadowGroup::getClassTypeId())
-                          ? static_cast<const SoExactShadowGroup*>(scene.group)
-                          : nullptr;
+  std::vector<double> phases[std::size(kPhases)];
+  const bool exact = scene.group->isOfType(SoExactShadowGroup::getClassTypeId()) != FALSE;
   for (int i = 0; i < kFrames; ++i) {
     change(scene, i);
     frames.push_back(milliseconds(stage, scene.root.get()));
-    if (exact != nullptr) updates.push_back(updateOf(exact->report()));
+    if (!exact) continue;
+    const ShadowReport& report = static_cast<const SoExactShadowGroup*>(scene.group)->report();
+    for (std::size_t k = 0; k < std::size(kPhases); ++k) phases[k].push_back(phaseOf(report, kPhases[k]));
+    updates.push_back(phases[0].back() + phases[1].back() + phases[2].back());
   }
-  return {benchmarks::median(frames), benchmarks::median(updates)};
+  Times times{benchmarks::median(frames), benchmarks::median(updates), {}};
+  for (const auto& phase : phases)
+    if (exact) times.phases.push_back(benchmarks::median(phase));
+  return times;
 }
 
 void moveLight(const Scene& scene, int i) { scene.light->location = SbVec3f(3.0f + 0.01f * float(i + 1), 8.0f, 2.0f); }
@@ -139,7 +148,8 @@ void touchAll(const Scene& scene, int) {
 
 void row(const char* name, const Times& times) {
   std::printf("  %-34s %8.1f", name, times.frame);
-  if (times.update > 0.0) std::printf("   of it, before shadows are computed %6.2f", times.update);
+  if (times.update > 0.0) std::printf("   before shadows %6.2f :", times.update);
+  for (std::size_t k = 0; k < times.phases.size(); ++k) std::printf("  %s %.2f", kPhases[k], times.phases[k]);
   std::printf("\n");
 }
 

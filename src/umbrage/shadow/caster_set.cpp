@@ -61,6 +61,8 @@ double roundingReach(const CasterSet& casters, std::span<const std::uint32_t> co
 
 // Marks the triangles of one closed component as outward or not, or leaves them at 0 when it is not convex.
 void markIfConvex(CasterSet& casters, std::span<const std::uint32_t> triangles) {
+  // A convex solid of n triangles has n / 2 + 2 corners (Euler); gathering those of a large component only to find it too large takes long.
+  if ((triangles.size() / 2 + 2) * triangles.size() > kLargestConvexTest) return;
   const auto corners = cornersOf(casters, triangles);
   if (corners.size() < 4 || corners.size() * triangles.size() > kLargestConvexTest) return;
   Vec3 middle(0.0);
