@@ -209,6 +209,19 @@ TEST(Picture, LightsThatAreOffAreNone) {
   EXPECT_EQ(groupOf(root.get())->report().passes, 1u);
 }
 
+TEST(Picture, OfNothingHasAnEmptyReport) {
+  STAGE_OR_SKIP(stage);
+  const auto root = sceneOf(room("", kOneLight, kSolids));
+  auto* group = groupOf(root.get());
+  stage->draw(root.get());
+  ASSERT_EQ(group->report().lights.size(), 1u);
+  while (group->getNumChildren() > 1) group->removeChild(1);  // the lamp stays
+  stage->draw(root.get());
+  EXPECT_TRUE(group->report().lights.empty());
+  EXPECT_EQ(group->report().passes, 1u);
+  EXPECT_FALSE(group->lastError());
+}
+
 TEST(Picture, OfSeveralViewersOnOneSceneIsEachViewersOwn) {
   STAGE_OR_SKIP(first);
   const auto second = Stage::make(200, 150);

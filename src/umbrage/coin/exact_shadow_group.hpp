@@ -26,7 +26,8 @@ void init();
 /// 1. Every pixel is Coin's own picture with exactly those lights on that reach its surface: where all do, it is Coin's picture to the bit;
 ///    materials, textures, fog and shaders are as the user set them.
 /// 2. Whatever changes in the scene graph shows in the next picture, with no call; only what changed is worked out anew (work()).
-/// 3. Shapes that Coin holds for transparent are drawn once, after all others, and in full light.
+/// 3. Shapes that Coin puts off until all others are drawn (transparent ones, by most types of transparency, and annotations) are drawn once, then, and in
+///    full light.
 /// 4. The OpenGL state is given back as Coin's own traversal leaves it, but for the stencil buffer inside the viewport, which is used and left at 0.
 /// Where shadows cannot be drawn (OpenGL older than 4.5, no stencil, a render cache being built around this node) the scene is drawn as
 /// a separator draws it, and lastError() says why.

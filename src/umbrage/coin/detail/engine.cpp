@@ -78,10 +78,13 @@ std::vector<Vec4> placesOf(const std::vector<PlacedLight>& lights) {
 
 // Per triangle the lights that may light it; empty where all are before all shapes.
 std::vector<std::uint64_t> shiningOn(const Scan& scan, const World& world) {
+  std::vector<std::uint64_t> on;
+  const std::size_t lights = scan.lights.size();
+  if (lights == 0 || world.geometry == nullptr) return on;
   std::vector<std::uint64_t> onShape(scan.shapes.size(), 0);
   std::uint64_t common = ~std::uint64_t{0};
   for (std::size_t i = 0; i < scan.shapes.size(); ++i) {
-    for (std::size_t k = 0; k < scan.lights.size(); ++k) {
+    for (std::size_t k = 0; k < lights; ++k) {
       const SoNode* node = scan.lights[k].node;
       const bool told = node->isOfType(SoLight::getClassTypeId()) != FALSE;
       const bool shines = !told || std::ranges::find(scan.shining[i], node) != scan.shining[i].end();
@@ -89,9 +92,7 @@ std::vector<std::uint64_t> shiningOn(const Scan& scan, const World& world) {
     }
     common &= onShape[i];
   }
-  std::vector<std::uint64_t> on;
-  const std::size_t lights = scan.lights.size();
-  if (world.geometry == nullptr || common == ~std::uint64_t{0} >> (64 - std::min<std::size_t>(lights, 64))) return on;
+  if (common == ~std::uint64_t{0} >> (kMostLights - lights)) return on;
   for (const std::uint32_t instance : world.geometry->surfaces.instances)
     on.push_back(onShape[world.shapeOf[instance]]);
   return on;
@@ -117,8 +118,6 @@ SoNode* nobody() {
   return node;
 }
 
-void Engine::note(Error error) { error_ = std::move(error); }
-
 void Engine::render(SoGLRenderAction* action, const Settings& settings, const Draw& draw) {
   error_.reset();
   SoState* state = action->getState();
@@ -130,10 +129,10 @@ void Engine::render(SoGLRenderAction* action, const Settings& settings, const Dr
   else
     can = checkTarget();
   if (can) {
-    if (auto done = drawShadowed(action, settings, draw); !done) note(done.error());
+    if (auto done = drawShadowed(action, settings, draw); !done) error_ = done.error();
     return;
   }
-  if (settings.sceneType != SceneType::withoutShadows) note(can.error());
+  if (settings.sceneType != SceneType::withoutShadows) error_ = can.error();
   SoCacheElement::invalidate(state);
   state->push();
   draw(action);
@@ -163,6 +162,7 @@ Result<void> Engine::drawShadowed(SoGLRenderAction* action, const Settings& sett
 
 Result<Subsets> Engine::shadowsOf(const Scan& scan, const std::optional<View>& view, const Settings& settings,
                                   shadow::PhaseClock& clock) {
+  if (scan.shapes.empty() || !view || scan.lights.size() > kMostLights) forgetShadows();
   if (scan.shapes.empty()) return Subsets{};
   if (!view) return fail(ErrorCode::usage, "no shadows: there is no camera");
   if (scan.lights.size() > kMostLights) return fail(ErrorCode::unsupported, "no shadows: more than 64 lights");
@@ -205,10 +205,12 @@ Result<void> Engine::shade(const Scan& scan, const View& view, const Settings& s
   reportIsOld_ = true;
   auto places = placesOf(scan.lights);
   const bool same = geometry_ == world.geometry && view_ == view && method_ == settings.method && places_ == places;
+  if (same) {
+    lights_ = scan.lights;  // their colours may be others
+    return {};
+  }
+  forgetShadows();  // nothing is known until it is there
   lights_ = scan.lights;
-  if (same) return {};
-  view_.reset();  // nothing is known until it is there
-  reach_ = {};
   geometry_ = world.geometry;
   places_ = std::move(places);
   if (world.geometry != nullptr && !scan.lights.empty()) {
@@ -266,6 +268,14 @@ void Engine::drawSubset(SoGLRenderAction* action, const Subset* subset, std::uin
   const gl::StencilWindow window(stencil, box);
   drawPass(action, draw, delayed);
   ++passes_;
+}
+
+void Engine::forgetShadows() {
+  geometry_.reset();
+  view_.reset();
+  reach_ = {};
+  lights_.clear();
+  reportIsOld_ = true;
 }
 
 const ShadowReport& Engine::report() const {

@@ -60,7 +60,7 @@ class Engine {
   void drawSubset(SoGLRenderAction* action, const Subset* subset, std::uint8_t stencil, const gl::Rect& whole,
                   const Draw& draw, Delayed delayed);
   [[nodiscard]] static Result<void> complaints(const Scan& scan);
-  void note(Error error);
+  void forgetShadows();
 
   Registry registry_;
   Extractor extractor_;
