@@ -11,6 +11,8 @@
 #include "coin/truth.hpp"
 #include "state/host_state.hpp"
 #include "umbrage/coin/exact_shadow_group.hpp"
+#include "umbrage/gl/stencil_pixels.hpp"
+#include "umbrage/gl/stencil_window.hpp"
 
 namespace umbrage::coin::test {
 namespace {
@@ -268,6 +270,24 @@ TEST(Picture, LeavesTheHostsStateAlone) {
   // Coin goes on as if nothing had been: the next picture is what it was.
   const auto picture = stage->draw(plain.get());
   EXPECT_EQ(largestDifference(picture, stage->draw(plain.get()), [](int, int) { return true; }).most, 0);
+}
+
+// What is done between Coin's passes, in hosts of every state.
+TEST(Picture, StencilsLeaveWildHostsAlone) {
+  STAGE_OR_SKIP(stage);
+  state::WildHost host(true);
+  const std::vector<std::uint8_t> values(12, 5);
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    host.randomise(seed);
+    const auto before = host.snapshot();
+    {
+      gl::HostScope scope;
+      ASSERT_TRUE(gl::writeStencil(scope, values, {3, 4, 4, 3}));
+      gl::fillStencil(scope, 7, {0, 0, 9, 9});
+    }
+    { const gl::StencilWindow window(5, {1, 2, 30, 40}); }
+    ASSERT_EQ(state::difference(before, host.snapshot()), "") << "seed " << seed;
+  }
 }
 
 TEST(Picture, LeavesTheGraphAlone) {
