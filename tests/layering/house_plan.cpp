@@ -28,7 +28,7 @@ const std::vector<ForeignRule>& foreignRules() {
       {"tbb/", {"parallel", "trace", "techniques_cpu", "study", "benchmarks"}},
       {"assimp/", {"io"}},
       {"tiny_gltf.h", {"io"}},
-      {"Inventor/", {"io", "coin"}},
+      {"Inventor/", {"inventor", "io", "coin", "apps", "tests", "examples", "benchmarks"}, true},
       {"geos", {"io"}},
       {"proj.h", {"geo"}},
       {"gdal", {"io", "report"}},
@@ -59,7 +59,7 @@ const std::vector<ForeignRule>& foreignRules() {
       {"pthread.h", {"io"}},
       {"fnmatch.h", {"scene"}},
       {"immintrin.h", {"*"}},
-      {"umbrage_shaders/", {"gl", "render", "techniques_gl", "tests"}},
+      {"umbrage_shaders/", {"gl", "render", "techniques_gl", "coin", "tests"}},
   };
   return rules;
 }

@@ -2,7 +2,11 @@
 // What they keep until the process ends:
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libfontconfig\n";  // its cache of fonts
+  return "leak:libfontconfig\n"                         // its cache of fonts
+         "leak:SoShadowStyleElement::createInstance\n"  // what Coin makes once for a class and for its clock
+         "leak:SoGLShadowCullingElement::createInstance\n"
+         "leak:SoSFTime::createInstance\n"
+         "leak:cc_glglue_instance\n";  // one a context, also when it is told that the context goes
 }
 
 // Embree and TBB are not instrumented, so what they do in their own threads looks unordered.

@@ -92,6 +92,8 @@ Result<void> checkCurrentContext() {
   return {};
 }
 
+bool currentIsEgl() { return epoxy_has_egl() && eglGetCurrentContext() != EGL_NO_CONTEXT; }
+
 Quirks findQuirks() {
   Quirks quirks;
   const std::string renderer = currentRenderer();

@@ -10,13 +10,16 @@
 namespace umbrage::gl {
 
 struct ContextOptions {
-  bool debug = false;          ///< ask for a debug context, so that DebugLog hears everything
-  bool compatibility = false;  ///< the compatibility profile, as older hosts need
+  bool debug = false;                        ///< ask for a debug context, so that DebugLog hears everything
+  bool compatibility = false;                ///< the compatibility profile, as older hosts need
   std::function<void(Quirks&)> adjust = {};  ///< says what the driver is to be taken for: for tests
 };
 
 /// For programs that bring their own context. Errors: ErrorCode::device when none is current or it is older than OpenGL 4.5.
 [[nodiscard]] Result<void> checkCurrentContext();
+
+/// Whether the current context was made by EGL, and not by GLX or another.
+[[nodiscard]] bool currentIsEgl();
 
 /// An OpenGL 4.5 core context without a window, through EGL.
 class Context {

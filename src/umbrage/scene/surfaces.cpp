@@ -58,6 +58,22 @@ void keepProper(Surfaces& s) {
   s.casts.resize(kept);
 }
 
+// False where points that were one no longer are.
+bool movePositions(const Scene& scene, const Welding& welding, Surfaces& out) {
+  std::vector<std::uint8_t> known(out.positions.size(), 0);
+  std::size_t i = 0;
+  for (const Instance& instance : scene.instances) {
+    for (const Vec3& p : scene.meshes[instance.mesh]->positions) {
+      const Vec3f moved = Vec3f(transformPoint(instance.toWorld, p) - out.origin) + Vec3f(0.0f);  // no -0
+      const std::uint32_t at = welding.position[i++];
+      if (known[at] != 0 && out.positions[at] != moved) return false;
+      known[at] = 1;
+      out.positions[at] = moved;
+    }
+  }
+  return true;
+}
+
 void measure(Surfaces& s) {
   for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
     for (int k = 0; k < 3; ++k) {
@@ -70,13 +86,18 @@ void measure(Surfaces& s) {
 }  // namespace
 
 Surfaces flatten(const Scene& scene) {
+  Welding welding;
+  return flatten(scene, welding);
+}
+
+Surfaces flatten(const Scene& scene, Welding& welding) {
   Surfaces out;
   out.origin = chooseOrigin(bounds(scene));
   Corners raw;
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
     append(scene.instances[i], i, *scene.meshes[scene.instances[i].mesh], out, raw);
 
-  const mesh::Weld welded = mesh::weld(std::span<const Vec3f>(raw.positions));
+  mesh::Weld welded = mesh::weld(std::span<const Vec3f>(raw.positions));
   out.positions.reserve(welded.first.size());
   for (const std::uint32_t i : welded.first) out.positions.push_back(raw.positions[i] + Vec3f(0.0f));  // no -0
   out.triangles = std::move(raw.triangles);
@@ -85,6 +106,19 @@ Surfaces flatten(const Scene& scene) {
     sortCorners(t, out.positions);
   }
   keepProper(out);
+  measure(out);
+  welding.position = std::move(welded.remap);
+  return out;
+}
+
+std::optional<Surfaces> flattenMoved(const Scene& scene, const Surfaces& before, const Welding& welding) {
+  if (before.dropped > 0) return std::nullopt;  // what had no area may have one now
+  Surfaces out = before;
+  out.bounds = out.casterBounds = {};
+  out.origin = chooseOrigin(bounds(scene));
+  if (!movePositions(scene, welding, out)) return std::nullopt;
+  if (mesh::weld(std::span<const Vec3f>(out.positions)).first.size() != out.positions.size()) return std::nullopt;
+  for (mesh::Triangle& t : out.triangles) sortCorners(t, out.positions);
   measure(out);
   return out;
 }

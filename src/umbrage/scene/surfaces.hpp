@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "umbrage/math/box.hpp"
@@ -38,5 +39,17 @@ struct Surfaces {
 };
 
 [[nodiscard]] Surfaces flatten(const Scene& scene);
+
+/// How flatten() made points of instances one: per point of every instance, in their order, its index in Surfaces::positions.
+struct Welding {
+  std::vector<std::uint32_t> position;
+};
+[[nodiscard]] Surfaces flatten(const Scene& scene, Welding& welding);
+
+/// The surfaces of a scene of which nothing changed but poses.
+/// 1. They are those of flatten(scene), bit by bit, in a part of the time.
+/// 2. None where other points would become one than before, so that triangles would be connected differently: then flatten() is needed.
+/// REQUIRES: `before` and `welding` are from flatten() of the same meshes, instances in the same order.
+[[nodiscard]] std::optional<Surfaces> flattenMoved(const Scene& scene, const Surfaces& before, const Welding& welding);
 
 }  // namespace umbrage::scene

@@ -61,6 +61,8 @@ double roundingReach(const CasterSet& casters, std::span<const std::uint32_t> co
 
 // Marks the triangles of one closed component as outward or not, or leaves them at 0 when it is not convex.
 void markIfConvex(CasterSet& casters, std::span<const std::uint32_t> triangles) {
+  // A convex solid of n triangles has n / 2 + 2 corners (Euler); gathering those of a large component only to find it too large takes long.
+  if ((triangles.size() / 2 + 2) * triangles.size() > kLargestConvexTest) return;
   const auto corners = cornersOf(casters, triangles);
   if (corners.size() < 4 || corners.size() * triangles.size() > kLargestConvexTest) return;
   Vec3 middle(0.0);
@@ -127,6 +129,27 @@ CasterSet buildCasters(const scene::Surfaces& surfaces) {
     casters.surfaceTriangle.push_back(t);
   }
   return finish(std::move(casters));
+}
+
+CasterSet moveCasters(const scene::Surfaces& surfaces, CasterSet before) {
+  CasterSet casters = std::move(before);
+  casters.origin = surfaces.origin;
+  casters.positions = surfaces.positions;
+  casters.bounds = {};
+  for (std::uint32_t t = 0; t < casters.triangles.size(); ++t) {
+    casters.triangles[t] = surfaces.triangles[casters.surfaceTriangle[t]];
+    for (int k = 0; k < 3; ++k) casters.bounds.add(casters.corner(t, k));
+  }
+  for (CasterEdge& edge : casters.edges) {
+    if (lexicographicallyLess(casters.positions[edge.b], casters.positions[edge.a])) std::swap(edge.a, edge.b);
+    for (std::uint32_t u = edge.begin; u < edge.end; ++u) {
+      const mesh::Triangle& t = casters.triangles[casters.uses[u].triangle];
+      casters.uses[u].sign = signOppositeCorner(edge.a == t[0] && edge.b == t[2] ? 1 : 0);
+    }
+  }
+  describeComponents(casters);
+  findConvexSolids(casters);
+  return casters;
 }
 
 CasterSet buildCasters(std::span<const Vec3f> positions, std::span<const mesh::Triangle> triangles) {

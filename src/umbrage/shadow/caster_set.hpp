@@ -52,6 +52,10 @@ struct CasterSet {
 /// The casting triangles of `surfaces`. Position indices are those of `surfaces`.
 [[nodiscard]] CasterSet buildCasters(const scene::Surfaces& surfaces);
 
+/// The same for surfaces that only moved since `before` was built from them (scene::flattenMoved): what buildCasters(surfaces) gives, bit by bit, in a part
+/// of the time.
+[[nodiscard]] CasterSet moveCasters(const scene::Surfaces& surfaces, CasterSet before);
+
 /// For hosts that hold their own geometry: welds, sorts, drops what has no three different corners.
 /// REQUIRES: every index < positions.size(); finite coordinates.
 [[nodiscard]] CasterSet buildCasters(std::span<const Vec3f> positions, std::span<const mesh::Triangle> triangles);

@@ -27,7 +27,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "umbrage/io/reader/inventor_check.hpp"
+#include "umbrage/inventor/check.hpp"
 #include "umbrage/io/reader/inventor_files.hpp"
 #include "umbrage/io/reader/read.hpp"
 
@@ -91,8 +91,10 @@ class Collector {
 
 SoCallbackAction::Response Collector::enter(SoCallbackAction* action, const SoNode* shape) {
   endPart();
+  using inventor::ShapeVerdict;
+  const ShapeVerdict verdict = inventor::judge(action, shape);
   // Coin's callbacks show nodes as const; what is changed in this one is of no meaning to the scene.
-  const ShapeVerdict verdict = judge(action, const_cast<SoNode*>(shape));
+  if (verdict == ShapeVerdict::read) inventor::secureBindings(const_cast<SoNode*>(shape));
   if (verdict == ShapeVerdict::broken) ++brokenShapes_;
   if (verdict == ShapeVerdict::nurbs) ++nurbs_;
   return verdict == ShapeVerdict::read ? SoCallbackAction::CONTINUE : SoCallbackAction::PRUNE;
@@ -253,7 +255,7 @@ Result<scene::Scene> readInventor(const Request& request) {
   if (root == nullptr)
     return fail(ErrorCode::input, "cannot be read: " + (complaints.empty() ? "it holds no nodes" : complaints.first()));
   root->ref();
-  if (auto fine = checkGraph(root); !fine) return tl::unexpected(fine.error());
+  if (auto fine = inventor::checkGraph(root); !fine) return tl::unexpected(fine.error());
   scene::Scene scene = collect(root);
   scene.up = scene::UpAxis::y;
   complaints.appendTo(scene.warnings);

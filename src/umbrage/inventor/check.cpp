@@ -1,4 +1,4 @@
-#include "umbrage/io/reader/inventor_check.hpp"
+#include "umbrage/inventor/check.hpp"
 
 #include <Inventor/SbName.h>
 #include <Inventor/VRMLnodes/SoVRMLCoordinate.h>
@@ -29,7 +29,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace umbrage::io::reader {
+namespace umbrage::inventor {
 namespace {
 
 constexpr double kMaxNodes = 5e6;
@@ -119,31 +119,6 @@ void lengthen(SoMFInt32& indices, const SoMFInt32& corners) {
     indices.set1Value(i, standard ? corners[i] : 0);
 }
 
-// Normals and texture coordinates play no part here, so their bindings are emptied rather than trusted.
-void secureBindings(SoNode* shape) {
-  shape->enableNotify(FALSE);
-  if (shape->isOfType(SoIndexedShape::getClassTypeId())) {
-    auto* indexed = static_cast<SoIndexedShape*>(shape);
-    lengthen(indexed->materialIndex, indexed->coordIndex);
-    indexed->normalIndex.setValue(-1);
-    indexed->textureCoordIndex.setValue(-1);
-  }
-  if (shape->isOfType(SoVertexShape::getClassTypeId()))
-    if (SoNode* own = static_cast<SoVertexShape*>(shape)->vertexProperty.getValue();
-        own != nullptr && own->isOfType(SoVertexProperty::getClassTypeId())) {
-      static_cast<SoVertexProperty*>(own)->normal.setNum(0);
-      static_cast<SoVertexProperty*>(own)->texCoord.setNum(0);
-    }
-  if (shape->isOfType(SoVRMLIndexedFaceSet::getClassTypeId())) {
-    auto* faces = static_cast<SoVRMLIndexedFaceSet*>(shape);
-    if (faces->colorIndex.getNum() > 0) lengthen(faces->colorIndex, faces->coordIndex);
-    faces->normal.setValue(nullptr);
-    faces->normalIndex.setNum(0);
-    faces->texCoord.setValue(nullptr);
-    faces->texCoordIndex.setNum(0);
-  }
-}
-
 }  // namespace
 
 Result<void> checkGraph(SoNode* root) {
@@ -171,14 +146,79 @@ Result<void> checkGraph(SoNode* root) {
   return {};
 }
 
-ShapeVerdict judge(SoCallbackAction* action, SoNode* shape) {
+ShapeVerdict judge(SoCallbackAction* action, const SoNode* shape) {
   if (isAny<SoLineSet, SoIndexedLineSet, SoPointSet, SoIndexedPointSet, SoVRMLIndexedLineSet, SoVRMLPointSet, SoImage,
             SoNurbsCurve, SoIndexedNurbsCurve>(shape))
     return ShapeVerdict::withoutArea;
   if (isAny<SoNurbsSurface, SoIndexedNurbsSurface>(shape)) return ShapeVerdict::nurbs;
   if (!pointsFit(action, shape)) return ShapeVerdict::broken;
-  secureBindings(shape);
   return ShapeVerdict::read;
 }
 
-}  // namespace umbrage::io::reader
+// Normals and texture coordinates play no part here, so their bindings are emptied rather than trusted.
+void secureBindings(SoNode* shape) {
+  shape->enableNotify(FALSE);
+  if (shape->isOfType(SoIndexedShape::getClassTypeId())) {
+    auto* indexed = static_cast<SoIndexedShape*>(shape);
+    lengthen(indexed->materialIndex, indexed->coordIndex);
+    indexed->normalIndex.setValue(-1);
+    indexed->textureCoordIndex.setValue(-1);
+  }
+  if (shape->isOfType(SoVertexShape::getClassTypeId()))
+    if (SoNode* own = static_cast<SoVertexShape*>(shape)->vertexProperty.getValue();
+        own != nullptr && own->isOfType(SoVertexProperty::getClassTypeId())) {
+      static_cast<SoVertexProperty*>(own)->normal.setNum(0);
+      static_cast<SoVertexProperty*>(own)->texCoord.setNum(0);
+    }
+  if (shape->isOfType(SoVRMLIndexedFaceSet::getClassTypeId())) {
+    auto* faces = static_cast<SoVRMLIndexedFaceSet*>(shape);
+    if (faces->colorIndex.getNum() > 0) lengthen(faces->colorIndex, faces->coordIndex);
+    faces->normal.setValue(nullptr);
+    faces->normalIndex.setNum(0);
+    faces->texCoord.setValue(nullptr);
+    faces->texCoordIndex.setNum(0);
+  }
+}
+
+struct LongBindings::Saved {
+  struct Field {
+    SoMFInt32* field;
+    std::vector<std::int32_t> indices;
+    SbBool wasDefault, notified;
+  };
+  SoIndexedShape* shape;
+  std::vector<Field> fields;
+};
+
+LongBindings::LongBindings(SoNode* node) {
+  if (!node->isOfType(SoIndexedShape::getClassTypeId())) return;
+  auto* shape = static_cast<SoIndexedShape*>(node);
+  saved_ = std::make_unique<Saved>(Saved{shape, {}});
+  shape->ref();
+  for (SoMFInt32* field : {&shape->materialIndex, &shape->normalIndex, &shape->textureCoordIndex}) {
+    if (field->getNum() >= shape->coordIndex.getNum()) continue;
+    const std::int32_t* values = field->getValues(0);
+    saved_->fields.push_back(
+        {field, {values, values + field->getNum()}, field->isDefault(), field->enableNotify(FALSE)});
+    lengthen(*field, shape->coordIndex);
+  }
+}
+
+LongBindings::LongBindings(LongBindings&&) noexcept = default;
+LongBindings& LongBindings::operator=(LongBindings&& other) noexcept {
+  saved_.swap(other.saved_);
+  return *this;
+}
+
+LongBindings::~LongBindings() {
+  if (saved_ == nullptr) return;
+  for (const Saved::Field& saved : saved_->fields) {
+    saved.field->setNum(static_cast<int>(saved.indices.size()));
+    saved.field->setValues(0, static_cast<int>(saved.indices.size()), saved.indices.data());
+    saved.field->setDefault(saved.wasDefault);
+    saved.field->enableNotify(saved.notified);
+  }
+  saved_->shape->unref();
+}
+
+}  // namespace umbrage::inventor

@@ -1,0 +1,292 @@
+#include "umbrage/coin/detail/engine.hpp"
+
+#include <Inventor/actions/SoGLRenderAction.h>
+#include <Inventor/caches/SoGLRenderCache.h>
+#include <Inventor/elements/SoCacheElement.h>
+#include <Inventor/elements/SoGLCacheContextElement.h>
+#include <Inventor/elements/SoModelMatrixElement.h>
+#include <Inventor/elements/SoProjectionMatrixElement.h>
+#include <Inventor/elements/SoShapeStyleElement.h>
+#include <Inventor/elements/SoViewingMatrixElement.h>
+#include <Inventor/elements/SoViewportRegionElement.h>
+#include <Inventor/misc/SoState.h>
+#include <Inventor/nodes/SoLight.h>
+#include <Inventor/nodes/SoSeparator.h>
+
+#include <algorithm>
+
+#include "umbrage/coin/detail/context_share.hpp"
+#include "umbrage/coin/detail/lights.hpp"
+#include "umbrage/coin/detail/lights_off.hpp"
+#include "umbrage/coin/detail/ray_masks.hpp"
+#include "umbrage/gl/context.hpp"
+#include "umbrage/gl/stencil_pixels.hpp"
+#include "umbrage/gl/stencil_window.hpp"
+
+namespace umbrage::coin::detail {
+namespace {
+
+/// The part of Coin's state under which a scene is drawn several times.
+///
+/// Render caches below would hold lights as they were when the cache was made, so none is used (another cache context) and none is made (a cache
+/// counts as open); those above would hold our own drawing.
+class ManyPasses {
+ public:
+  ManyPasses(SoState* state, std::uint32_t cacheContext) : state_(state) {
+    const SbBool remote = SoGLCacheContextElement::getIsRemoteRendering(state);
+    if (state->isCacheOpen()) SoCacheElement::invalidate(state);
+    SoGLCacheContextElement::shouldAutoCache(state, SoGLCacheContextElement::DONT_AUTO_CACHE);
+    state->push();
+    SoGLCacheContextElement::set(state, static_cast<int>(cacheContext), FALSE, remote);
+    SoCacheElement::set(state, new SoGLRenderCache(state));  // Coin takes every open cache for one of these
+  }
+  ManyPasses(const ManyPasses&) = delete;
+  ManyPasses& operator=(const ManyPasses&) = delete;
+  ~ManyPasses() { state_->pop(); }
+
+ private:
+  SoState* state_;
+};
+
+// Whether Coin blends at all.
+bool drawsTransparent(SoState* state) {
+  return SoShapeStyleElement::getTransparencyType(state) != SoGLRenderAction::NONE;
+}
+
+void drawPass(SoGLRenderAction* action, const Engine::Draw& draw, Delayed delayed) {
+  SoState* state = action->getState();
+  const SoAction::PathCode code = action->getCurPathCode();
+  state->push();
+  if (delayed == Delayed::astray) action->pushCurPath(kNoChild, nobody());
+  draw(action);
+  if (delayed == Delayed::astray) action->popCurPath(code);
+  state->pop();
+}
+
+// As Coin's own drawing has it, where the camera stands before: stereo and jitter are in it. A camera inside was told by the scan.
+std::optional<Sight> sightOf(SoState* state, const Scan& scan) {
+  const SbMatrix& projection = SoProjectionMatrixElement::get(state);
+  if (projection == SbMatrix::identity()) return scan.sight;
+  return Sight{SoViewingMatrixElement::get(state), projection, SoViewportRegionElement::get(state)};
+}
+
+std::vector<Vec4> placesOf(const std::vector<PlacedLight>& lights) {
+  std::vector<Vec4> places;
+  for (const PlacedLight& light : lights) places.push_back(scene::homogeneous(light.light, Vec3(0.0)));
+  return places;
+}
+
+// Per triangle the lights that may light it; empty where all are before all shapes.
+std::vector<std::uint64_t> shiningOn(const Scan& scan, const World& world) {
+  std::vector<std::uint64_t> on;
+  const std::size_t lights = scan.lights.size();
+  if (lights == 0 || world.geometry == nullptr) return on;
+  std::vector<std::uint64_t> onShape(scan.shapes.size(), 0);
+  std::uint64_t common = ~std::uint64_t{0};
+  for (std::size_t i = 0; i < scan.shapes.size(); ++i) {
+    for (std::size_t k = 0; k < lights; ++k) {
+      const SoNode* node = scan.lights[k].node;
+      const bool told = node->isOfType(SoLight::getClassTypeId()) != FALSE;
+      const bool shines = !told || std::ranges::find(scan.shining[i], node) != scan.shining[i].end();
+      onShape[i] |= std::uint64_t{shines} << k;
+    }
+    common &= onShape[i];
+  }
+  if (common == ~std::uint64_t{0} >> (kMostLights - lights)) return on;
+  for (const std::uint32_t instance : world.geometry->surfaces.instances)
+    on.push_back(onShape[world.shapeOf[instance]]);
+  return on;
+}
+
+// Writes the stencil of a round. Outside the box of all subsets the whole is 0, or, after the first round, not drawn.
+Result<void> stamp(const Subsets& subsets, std::size_t round, const gl::Rect& whole) {
+  gl::HostScope scope;
+  gl::fillStencil(scope, round == 0 ? std::uint8_t{0} : kNotNow, whole);
+  const gl::Rect box = boxOf(subsets);
+  return gl::writeStencil(scope, stencilOf(subsets, round, box),
+                          {whole.x + box.x, whole.y + box.y, box.width, box.height});
+}
+
+}  // namespace
+
+SoNode* nobody() {
+  static SoNode* const node = [] {
+    auto* made = new SoSeparator;
+    made->ref();
+    return made;
+  }();
+  return node;
+}
+
+void Engine::render(SoGLRenderAction* action, const Settings& settings, const Draw& draw) {
+  error_.reset();
+  SoState* state = action->getState();
+  Result<void> can;
+  if (settings.sceneType == SceneType::withoutShadows)
+    can = fail(ErrorCode::usage, "shadows are switched off");
+  else if (state->isCacheOpen())
+    can = fail(ErrorCode::device, "no shadows: a node above has renderCaching ON");
+  else
+    can = checkTarget();
+  if (can) {
+    if (auto done = drawShadowed(action, settings, draw); !done) error_ = done.error();
+    return;
+  }
+  if (settings.sceneType != SceneType::withoutShadows) error_ = can.error();
+  SoCacheElement::invalidate(state);
+  state->push();
+  draw(action);
+  state->pop();
+}
+
+Result<void> Engine::drawShadowed(SoGLRenderAction* action, const Settings& settings, const Draw& draw) {
+  SoState* state = action->getState();
+  phases_.clear();
+  shadow::PhaseClock clock(phases_);
+  const ManyPasses passes(state, ownCacheContext(static_cast<std::uint32_t>(action->getCacheContext())));
+  const Scan scan = extractor_.scan({action->getCurPath(), SoViewportRegionElement::get(state), &registry_,
+                                     !gl::currentIsEgl(), drawsTransparent(state)});
+  work_.extractions = extractor_.extractions();
+  clock.end("scene");
+  ++work_.frames;
+  passes_ = 0;
+  const auto sight = sightOf(state, scan);
+  const auto view = sight ? viewOf(*sight) : std::nullopt;
+  const auto subsets = shadowsOf(scan, view, settings, clock);
+  if (auto done = compose(action, subsets ? *subsets : Subsets{}, view, draw); !done) return done;
+  clock.end("drawing");
+  if (!subsets) return tl::unexpected(subsets.error());
+  if (settings.sceneType == SceneType::visibleVolumes && view) drawVolumes(action, scan, *sight, settings);
+  return complaints(scan);
+}
+
+Result<Subsets> Engine::shadowsOf(const Scan& scan, const std::optional<View>& view, const Settings& settings,
+                                  shadow::PhaseClock& clock) {
+  if (scan.shapes.empty() || !view || scan.lights.size() > kMostLights) forgetShadows();
+  if (scan.shapes.empty()) return Subsets{};
+  if (!view) return fail(ErrorCode::usage, "no shadows: there is no camera");
+  if (scan.lights.size() > kMostLights) return fail(ErrorCode::unsupported, "no shadows: more than 64 lights");
+  if (auto done = shade(scan, *view, settings, clock); !done) return tl::unexpected(done.error());
+  const std::vector<std::uint64_t> shining = shiningOn(scan, builder_.world());
+  return subsetsOf(reach_.masks, {&reach_.triangle, shining});
+}
+
+Result<void> Engine::complaints(const Scan& scan) {
+  if (!scan.manifold.empty())
+    return fail(ErrorCode::unsupported, "a light that stands at several places casts no shadows",
+                scan.manifold.front()->getName().getString());
+  if (scan.broken > 0)
+    return fail(ErrorCode::input,
+                std::to_string(scan.broken) + " shapes cast nothing: they name points they do not have");
+  return {};
+}
+
+void Engine::drawVolumes(SoGLRenderAction* action, const Scan& scan, const Sight& sight, const Settings& settings) {
+  SoSeparator* volumes = volumes_.build(scan, settings, Caps::none, work_);
+  if (volumes == nullptr) return;
+  SoState* state = action->getState();
+  state->push();
+  SoViewingMatrixElement::set(state, volumes, sight.viewing);
+  SoProjectionMatrixElement::set(state, volumes, sight.projection);
+  SoModelMatrixElement::makeIdentity(state, volumes);
+  volumes->GLRender(action);
+  state->pop();
+}
+
+SoSeparator* Engine::volumesOf(const SoPath& path, const Settings& settings) {
+  const Scan scan = extractor_.scan({&path, SbViewportRegion(640, 480), &registry_, false, true});
+  work_.extractions = extractor_.extractions();
+  return volumes_.build(scan, settings, Caps::both, work_);
+}
+
+Result<void> Engine::shade(const Scan& scan, const View& view, const Settings& settings, shadow::PhaseClock& clock) {
+  const World& world = builder_.build(scan.shapes, settings.transparentCasters, work_);
+  clock.end("geometry");
+  reportIsOld_ = true;
+  auto places = placesOf(scan.lights);
+  const bool same = geometry_ == world.geometry && view_ == view && method_ == settings.method && places_ == places;
+  if (same) {
+    lights_ = scan.lights;  // their colours may be others
+    return {};
+  }
+  forgetShadows();  // nothing is known until it is there
+  lights_ = scan.lights;
+  geometry_ = world.geometry;
+  places_ = std::move(places);
+  if (world.geometry != nullptr && !scan.lights.empty()) {
+    std::vector<scene::Light> lights;
+    for (const PlacedLight& light : scan.lights) lights.push_back(withoutCone(light.light));
+    ++work_.shades;
+    if (auto done = masks_.prepare(world, view, settings.method); !done) return done;
+    clock.end("prepare");
+    auto reach = masks_.masks(world, view, lights);
+    if (!reach) return tl::unexpected(reach.error());
+    reach_ = std::move(*reach);
+    clock.end("shadows");
+  }
+  view_ = view;
+  method_ = settings.method;
+  return {};
+}
+
+// Every pixel is drawn by exactly one pass, the one whose lights reach it.
+Result<void> Engine::compose(SoGLRenderAction* action, const Subsets& subsets, const std::optional<View>& view,
+                             const Draw& draw) {
+  if (subsets.all.empty()) {
+    ++passes_;
+    drawPass(action, draw, Delayed::noted);
+    return {};
+  }
+  const gl::Rect whole{view->x, view->y, view->width, view->height};
+  Delayed delayed = Delayed::noted;
+  for (std::size_t round = 0; round < roundsOf(subsets); ++round) {
+    if (auto done = stamp(subsets, round, whole); !done) {
+      if (delayed == Delayed::noted) drawPass(action, draw, delayed);
+      return done;
+    }
+    const std::size_t first = round * kPerRound, end = std::min(first + kPerRound, subsets.all.size());
+    for (std::size_t i = round == 0 ? 0 : first + 1; i <= end; ++i) {
+      const Subset* subset = i > 0 ? &subsets.all[i - 1] : nullptr;
+      drawSubset(action, subset, static_cast<std::uint8_t>(i - first), whole, draw, delayed);
+      delayed = Delayed::astray;
+    }
+  }
+  gl::HostScope scope;
+  gl::fillStencil(scope, 0, whole);
+  return {};
+}
+
+void Engine::drawSubset(SoGLRenderAction* action, const Subset* subset, std::uint8_t stencil, const gl::Rect& whole,
+                        const Draw& draw, Delayed delayed) {
+  std::vector<SoNode*> off;
+  gl::Rect box = whole;
+  if (subset != nullptr) {
+    for (const std::size_t light : subset->off) off.push_back(lights_[light].node);
+    box = {whole.x + subset->box.x, whole.y + subset->box.y, subset->box.width, subset->box.height};
+  }
+  const LightsOff dark(off);
+  const gl::StencilWindow window(stencil, box);
+  drawPass(action, draw, delayed);
+  ++passes_;
+}
+
+void Engine::forgetShadows() {
+  geometry_.reset();
+  view_.reset();
+  reach_ = {};
+  lights_.clear();
+  reportIsOld_ = true;
+}
+
+const ShadowReport& Engine::report() const {
+  if (!reportIsOld_) return report_;
+  reportIsOld_ = false;
+  report_ = {geometry_, view_ ? view_->pinhole : std::nullopt, {}, passes_, phases_, masks_.used()};
+  for (std::size_t i = 0; i < reach_.masks.size(); ++i) {
+    report_.lights.push_back({lights_[i].node, lights_[i].light, reach_.masks[i], reach_.masks[i]});
+    cutCone(report_.lights.back().mask, lights_[i].light, *view_, geometry_->surfaces, reach_.triangle);
+  }
+  return report_;
+}
+
+}  // namespace umbrage::coin::detail

@@ -1,0 +1,307 @@
+#include "umbrage/coin/detail/extractor.hpp"
+
+#include <Inventor/SoPath.h>
+#include <Inventor/SoPrimitiveVertex.h>
+#include <Inventor/VRMLnodes/SoVRMLLight.h>
+#include <Inventor/actions/SoCallbackAction.h>
+#include <Inventor/annex/FXViz/elements/SoShadowStyleElement.h>
+#include <Inventor/caches/SoCache.h>
+#include <Inventor/elements/SoCacheElement.h>
+#include <Inventor/elements/SoLazyElement.h>
+#include <Inventor/elements/SoLightElement.h>
+#include <Inventor/elements/SoMultiTextureImageElement.h>
+#include <Inventor/elements/SoViewportRegionElement.h>
+#include <Inventor/misc/SoState.h>
+#include <Inventor/nodes/SoLight.h>
+#include <Inventor/nodes/SoShape.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "umbrage/coin/detail/lights.hpp"
+#include "umbrage/coin/detail/matrices.hpp"
+#include "umbrage/inventor/check.hpp"
+#include "umbrage/inventor/full_path.hpp"
+#include "umbrage/mesh/weld.hpp"
+
+namespace umbrage::coin::detail {
+namespace {
+
+constexpr std::size_t kScansKept = 64;  ///< triangles that so many scans did not meet are forgotten
+
+struct Uncache {
+  void operator()(SoCache* cache) const { cache->unref(nullptr); }
+};
+using CacheRef = std::unique_ptr<SoCache, Uncache>;
+
+/// How a shape's materials let light through.
+struct Veil {
+  std::vector<float> transparencies;  ///< per material; empty: none is transparent
+  bool texture = false;               ///< its texture lets light through somewhere
+  friend bool operator==(const Veil&, const Veil&) = default;
+};
+
+Veil veilAt(SoState* state, bool counts) {
+  Veil veil;
+  if (!counts) return veil;
+  if (state->isElementEnabled(SoMultiTextureImageElement::getClassStackIndex()))
+    veil.texture = SoMultiTextureImageElement::containsTransparency(state);
+  const SoLazyElement* lazy = SoLazyElement::getInstance(state);
+  const int count = lazy->isPacked() ? lazy->getNumDiffuse() : lazy->getNumTransparencies();
+  for (int i = 0; i < count; ++i) veil.transparencies.push_back(SoLazyElement::getTransparency(state, i));
+  const bool clear = std::ranges::all_of(veil.transparencies, [](float t) { return t <= 0.0f; });
+  if (clear) veil.transparencies.clear();
+  return veil;
+}
+
+// Coin does not note VRML's lights.
+std::vector<const SoNode*> lightsAt(SoState* state) {
+  std::vector<const SoNode*> nodes;
+  if (!state->isElementEnabled(SoLightElement::getClassStackIndex())) return nodes;
+  const SoNodeList& lights = SoLightElement::getLights(state);
+  for (int i = 0; i < lights.getLength(); ++i) nodes.push_back(lights[i]);
+  return nodes;
+}
+
+/// One part of a shape while it is read.
+struct Soup {
+  std::vector<Vec3> corners;
+  [[nodiscard]] std::shared_ptr<const mesh::Mesh> finish() const {
+    if (corners.empty()) return nullptr;
+    const mesh::Weld weld = mesh::weld(std::span<const Vec3>(corners));
+    auto mesh = std::make_shared<mesh::Mesh>();
+    for (const std::uint32_t first : weld.first) mesh->positions.push_back(corners[first]);
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
+      mesh->triangles.push_back({weld.remap[i], weld.remap[i + 1], weld.remap[i + 2]});
+    return mesh;
+  }
+};
+
+struct Entry {
+  CacheRef cache;
+  Veil veil;
+  std::shared_ptr<const ShapeTriangles> triangles;
+  std::size_t lastMet = 0;
+};
+
+}  // namespace
+
+/// What is known of shapes, by node id: Coin gives a node another id whenever it changes, and no id twice.
+class Extractor::Memory {
+ public:
+  std::size_t scans = 0, extractions = 0;
+
+  Entry* find(const SoNode& shape, const SoState* state, const Veil& veil) {
+    const auto known = entries_.find(shape.getNodeId());
+    if (known == entries_.end()) return nullptr;
+    for (Entry& entry : known->second)
+      if (entry.veil == veil && entry.cache->isValid(state)) return &entry;
+    return nullptr;
+  }
+  void add(const SoNode& shape, Entry entry) { entries_[shape.getNodeId()].push_back(std::move(entry)); }
+  void drop(const SoNode& shape) { entries_.erase(shape.getNodeId()); }
+  void tidy() {
+    for (auto known = entries_.begin(); known != entries_.end();) {
+      std::erase_if(known->second, [&](const Entry& entry) { return entry.lastMet + kScansKept < scans; });
+      known = known->second.empty() ? entries_.erase(known) : std::next(known);
+    }
+  }
+
+ private:
+  std::unordered_map<SbUniqueId, std::vector<Entry>> entries_;
+};
+
+/// One walk through the graph.
+class Extractor::Traversal {
+ public:
+  Traversal(Memory& memory, const ScanRequest& request, const std::vector<const SoNode*>& forgotten, bool last)
+      : memory_(memory), request_(request), forgotten_(forgotten), last_(last) {}
+
+  Scan run();
+  [[nodiscard]] bool wantsAnother() const { return again_; }
+
+ private:
+  using Response = SoCallbackAction::Response;
+  static Traversal& self(void* data) { return *static_cast<Traversal*>(data); }
+  Response enter(SoCallbackAction* action, const SoNode* shape);
+  void leave(SoCallbackAction* action, const SoNode* shape);
+  void meetLight(SoCallbackAction* action, const SoNode* node);
+  void addTriangle(SoState* state, const SoPrimitiveVertex* const (&corners)[3]);
+  void see(SoCallbackAction* action);
+  void startReading(SoState* state, Veil veil);
+  void place(SoCallbackAction* action, std::shared_ptr<const ShapeTriangles> triangles);
+  [[nodiscard]] bool isForgotten(const SoPath* path) const;
+  [[nodiscard]] float transparencyAt(SoState* state, int index) const;
+
+  Memory& memory_;
+  const ScanRequest& request_;
+  const std::vector<const SoNode*>& forgotten_;
+  bool last_;  ///< what cannot be kept now never can
+  bool again_ = false;
+  Scan scan_;
+  std::vector<const SoNode*> lightNodes_;
+  // The shape that is being read:
+  bool reading_ = false;
+  Entry entry_;
+  std::optional<inventor::LongBindings> bindings_;
+  Soup opaque_, veiled_;
+  SbBool cacheWasOpen_ = FALSE, wasInvalid_ = FALSE;
+};
+
+Scan Extractor::Traversal::run() {
+  SoCallbackAction action(request_.viewport);
+  const auto enterShape = [](void* data, SoCallbackAction* a, const SoNode* n) { return self(data).enter(a, n); };
+  const auto leaveShape = [](void* data, SoCallbackAction* a, const SoNode* n) {
+    self(data).leave(a, n);
+    return SoCallbackAction::CONTINUE;
+  };
+  const auto light = [](void* data, SoCallbackAction* a, const SoNode* n) {
+    self(data).meetLight(a, n);
+    return SoCallbackAction::CONTINUE;
+  };
+  const auto triangle = [](void* data, SoCallbackAction* a, const SoPrimitiveVertex* p, const SoPrimitiveVertex* q,
+                           const SoPrimitiveVertex* r) {
+    const SoPrimitiveVertex* const corners[3] = {p, q, r};
+    self(data).addTriangle(a->getState(), corners);
+  };
+  action.addPreCallback(SoShape::getClassTypeId(), enterShape, this);
+  action.addPostCallback(SoShape::getClassTypeId(), leaveShape, this);
+  action.addPreCallback(SoLight::getClassTypeId(), light, this);
+  action.addPreCallback(SoVRMLLight::getClassTypeId(), light, this);
+  action.addTriangleCallback(SoShape::getClassTypeId(), triangle, this);
+  action.apply(const_cast<SoPath*>(request_.path));
+  return std::move(scan_);
+}
+
+bool Extractor::Traversal::isForgotten(const SoPath* path) const {
+  const inventor::FullPath full(*path);
+  return std::ranges::any_of(forgotten_, [&](const SoNode* node) { return full.contains(node); });
+}
+
+Extractor::Traversal::Response Extractor::Traversal::enter(SoCallbackAction* action, const SoNode* shape) {
+  SoState* state = action->getState();
+  see(action);
+  if (action->getDrawStyle() != SoDrawStyle::FILLED) return SoCallbackAction::PRUNE;
+  const auto verdict = inventor::judge(action, shape);
+  if (verdict == inventor::ShapeVerdict::broken) ++scan_.broken;
+  const bool readable =
+      verdict == inventor::ShapeVerdict::read || (verdict == inventor::ShapeVerdict::nurbs && request_.hasGlx);
+  if (!readable) return SoCallbackAction::PRUNE;
+  Veil veil = veilAt(state, request_.transparencyCounts);
+  if (!forgotten_.empty() && isForgotten(action->getCurPath())) memory_.drop(*shape);
+  if (Entry* known = memory_.find(*shape, state, veil)) {
+    known->lastMet = memory_.scans;
+    place(action, known->triangles);
+    return SoCallbackAction::PRUNE;
+  }
+  startReading(state, std::move(veil));
+  bindings_.emplace(const_cast<SoNode*>(shape));  // callbacks show nodes as const
+  return SoCallbackAction::CONTINUE;
+}
+
+// Coin notes in an open cache which elements are read; the shape's triangles are the same for as long as those match.
+void Extractor::Traversal::startReading(SoState* state, Veil veil) {
+  reading_ = true;
+  opaque_ = veiled_ = {};
+  cacheWasOpen_ = state->isCacheOpen();
+  wasInvalid_ = SoCacheElement::setInvalid(FALSE);
+  state->push();
+  SoCache* cache = new SoCache(state);
+  cache->ref();
+  entry_ = {CacheRef(cache), std::move(veil), nullptr, memory_.scans};
+  SoCacheElement::set(state, cache);
+  state->setCacheOpen(TRUE);
+}
+
+void Extractor::Traversal::leave(SoCallbackAction* action, const SoNode* shape) {
+  if (!reading_) return;
+  reading_ = false;
+  bindings_.reset();
+  SoState* state = action->getState();
+  state->setCacheOpen(cacheWasOpen_);
+  state->pop();
+  SoCacheElement::setInvalid(wasInvalid_);
+  entry_.triangles = std::make_shared<const ShapeTriangles>(ShapeTriangles{opaque_.finish(), veiled_.finish()});
+  place(action, entry_.triangles);
+  // A cache is invalid when a cache was made inside, of normals or of convex polygons, which then is there the next time.
+  const bool keeps = entry_.cache->isValid(state);
+  again_ = again_ || (!keeps && !last_);
+  if (keeps || last_) ++memory_.extractions;
+  if (keeps) memory_.add(*shape, std::move(entry_));
+  entry_ = {};
+}
+
+void Extractor::Traversal::place(SoCallbackAction* action, std::shared_ptr<const ShapeTriangles> triangles) {
+  if (triangles->opaque == nullptr && triangles->veiled == nullptr) return;
+  SoState* state = action->getState();
+  const bool styled = state->isElementEnabled(SoShadowStyleElement::getClassStackIndex()) != FALSE;
+  const bool style = !styled || (SoShadowStyleElement::get(state) & SoShadowStyleElement::CASTS_SHADOW) != 0;
+  scan_.shining.push_back(lightsAt(state));
+  scan_.shapes.push_back({std::move(triangles), matrixOf(action->getModelMatrix()),
+                          style && request_.registry->casts(*action->getCurPath())});
+}
+
+float Extractor::Traversal::transparencyAt(SoState* state, int index) const {
+  // Of its own vertices, too, which are in the state only while the shape is read. Coin reads beyond its arrays for an index beyond them.
+  const SoLazyElement* lazy = SoLazyElement::getInstance(state);
+  const int count = lazy->isPacked() ? lazy->getNumDiffuse() : lazy->getNumTransparencies();
+  return count > 0 ? SoLazyElement::getTransparency(state, std::clamp(index, 0, count - 1)) : 0.0f;
+}
+
+void Extractor::Traversal::addTriangle(SoState* state, const SoPrimitiveVertex* const (&corners)[3]) {
+  if (!reading_) return;
+  float least = 1.0f, most = 0.0f;
+  if (request_.transparencyCounts) {
+    for (const SoPrimitiveVertex* corner : corners) {
+      const float t = transparencyAt(state, corner->getMaterialIndex());
+      least = std::min(least, t);
+      most = std::max(most, t);
+    }
+    if (least >= 1.0f) return;
+  }
+  Soup& soup = most > 0.0f || entry_.veil.texture ? veiled_ : opaque_;
+  for (const SoPrimitiveVertex* corner : corners) soup.corners.push_back(vectorOf(corner->getPoint()));
+}
+
+void Extractor::Traversal::see(SoCallbackAction* action) {
+  if (scan_.sight) return;
+  const SbMatrix& projection = action->getProjectionMatrix();
+  if (projection == SbMatrix::identity()) return;
+  scan_.sight = Sight{action->getViewingMatrix(), projection, SoViewportRegionElement::get(action->getState())};
+}
+
+void Extractor::Traversal::meetLight(SoCallbackAction* action, const SoNode* node) {
+  const SoNode* group = inventor::FullPath(*request_.path).tail();
+  if (!inventor::FullPath(*action->getCurPath()).contains(group) || !request_.registry->shadows(*node)) return;
+  const auto light = lightOf(*node, matrixOf(action->getModelMatrix()));
+  if (!light) return;
+  // Callbacks show nodes as const; the caller, who has the path, may change them.
+  auto* own = const_cast<SoNode*>(node);
+  const bool again = std::ranges::find(lightNodes_, node) != lightNodes_.end();
+  lightNodes_.push_back(node);
+  if (!again) {
+    scan_.lights.push_back({own, *light});
+  } else if (std::ranges::find(scan_.manifold, own) == scan_.manifold.end()) {
+    scan_.manifold.push_back(own);
+    std::erase_if(scan_.lights, [&](const PlacedLight& known) { return known.node == own; });
+  }
+}
+
+Extractor::Extractor() : memory_(std::make_unique<Memory>()) {}
+Extractor::~Extractor() = default;
+
+Scan Extractor::scan(const ScanRequest& request) {
+  ++memory_->scans;
+  Traversal first(*memory_, request, forgotten_, false);
+  Scan scan = first.run();
+  forgotten_.clear();
+  if (first.wantsAnother()) scan = Traversal(*memory_, request, forgotten_, true).run();
+  memory_->tidy();
+  return scan;
+}
+
+void Extractor::forget(const SoNode* node) { forgotten_.push_back(node); }
+
+std::size_t Extractor::extractions() const { return memory_->extractions; }
+
+}  // namespace umbrage::coin::detail

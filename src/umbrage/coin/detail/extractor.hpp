@@ -1,0 +1,86 @@
+#pragma once
+
+#include <Inventor/SbMatrix.h>
+#include <Inventor/SbViewportRegion.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "umbrage/coin/detail/registry.hpp"
+#include "umbrage/mesh/mesh.hpp"
+#include "umbrage/scene/light.hpp"
+
+class SoPath;
+
+namespace umbrage::coin::detail {
+
+/// The triangles of one shape in its own space, by what they do to light. Null where there are none; what is fully transparent is left out.
+struct ShapeTriangles {
+  std::shared_ptr<const mesh::Mesh> opaque;
+  std::shared_ptr<const mesh::Mesh> veiled;  ///< part-transparent
+};
+
+/// A shape at one of its places.
+struct PlacedShape {
+  std::shared_ptr<const ShapeTriangles> triangles;
+  Mat4 toWorld{1.0};
+  bool casts = true;
+  friend bool operator==(const PlacedShape&, const PlacedShape&) = default;
+};
+
+struct PlacedLight {
+  SoNode* node = nullptr;
+  scene::Light light;  ///< in world coordinates
+};
+
+/// How the shapes are seen.
+struct Sight {
+  SbMatrix viewing, projection;
+  SbViewportRegion viewport;
+};
+
+/// A scene graph at one moment.
+struct Scan {
+  std::vector<PlacedShape> shapes;                  ///< those with triangles, in the order of the graph
+  std::vector<std::vector<const SoNode*>> shining;  ///< per shape: light nodes before it, which alone can light it
+  std::vector<PlacedLight> lights;                  ///< those that shine and cast
+  std::vector<SoNode*> manifold;                    ///< lights that stand at several places, which are not in `lights`
+  std::optional<Sight> sight;                       ///< of the first shape; none without a camera before it
+  std::size_t broken = 0;                           ///< shapes left out, since they name points that they do not have
+};
+
+struct ScanRequest {
+  const SoPath* path = nullptr;  ///< down to the node whose shapes and lights are wanted
+  SbViewportRegion viewport;
+  const Registry* registry = nullptr;
+  bool hasGlx =
+      false;  ///< GLX works here: Coin makes a context with it to take NURBS apart, and dies where there is none
+  bool transparencyCounts = true;  ///< false: Coin draws everything opaque
+};
+
+/// Reads scene graphs, and keeps the triangles of shapes for as long as Coin's own rules for its caches say that they stay the same: the shape's
+/// node id, and the elements of the state that it read. A shape that only stands elsewhere is not read again.
+class Extractor {
+ public:
+  Extractor();
+  Extractor(const Extractor&) = delete;
+  Extractor& operator=(const Extractor&) = delete;
+  ~Extractor();
+
+  [[nodiscard]] Scan scan(const ScanRequest& request);
+
+  /// All shapes in or below `node` are read anew with the next scan.
+  void forget(const SoNode* node);
+
+  /// Shapes that were read so far.
+  [[nodiscard]] std::size_t extractions() const;
+
+ private:
+  class Traversal;
+  class Memory;
+  std::unique_ptr<Memory> memory_;
+  std::vector<const SoNode*> forgotten_;
+};
+
+}  // namespace umbrage::coin::detail

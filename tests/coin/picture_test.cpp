@@ -1,0 +1,355 @@
+#include <Inventor/SoDB.h>
+#include <Inventor/SoInput.h>
+#include <Inventor/SoOutput.h>
+#include <Inventor/actions/SoWriteAction.h>
+#include <Inventor/nodes/SoPerspectiveCamera.h>
+#include <Inventor/nodes/SoTranslation.h>
+#include <gtest/gtest.h>
+
+#include "coin/scenes.hpp"
+#include "coin/stage.hpp"
+#include "coin/truth.hpp"
+#include "state/host_state.hpp"
+#include "umbrage/coin/exact_shadow_group.hpp"
+#include "umbrage/gl/stencil_pixels.hpp"
+#include "umbrage/gl/stencil_window.hpp"
+
+namespace umbrage::coin::test {
+namespace {
+
+constexpr int kWidth = 320, kHeight = 240;
+
+#define STAGE_OR_SKIP(stage)                       \
+  const auto stage = Stage::make(kWidth, kHeight); \
+  if (!stage) GTEST_SKIP() << "no OpenGL here"
+
+/// Draws it, and holds masks and picture against the truth.
+image::RgbaImage judged(Stage& stage, SoNode* root, const std::string& what) {
+  auto* group = groupOf(root);
+  const auto picture = stage.draw(root);
+  EXPECT_FALSE(group->lastError()) << what << ": " << group->lastError()->text();
+  expectTrueShadows(*group, what);
+  expectCoinsOwnPicture(stage, root, *group, picture);
+  save(picture, "coin_" + what);
+  return picture;
+}
+
+std::size_t shadowed(const LightShadow& light) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < light.mask.light.size(); ++i)
+    count += light.mask.covered.pixels()[i] != 0 && light.mask.light.pixels()[i] == 0;
+  return count;
+}
+
+TEST(Picture, IsRightByEveryMethod) {
+  STAGE_OR_SKIP(stage);
+  image::RgbaImage first;
+  for (const char* method : {"RAY_TRACED", "AUTOMATIC", "Z_PASS", "Z_FAIL"}) {
+    const auto root = sceneOf(room(std::string("method ") + method, kThreeLights, kSolids));
+    judged(*stage, root.get(), method);
+    EXPECT_GT(groupOf(root.get())->report().passes, 3u);
+  }
+}
+
+TEST(Picture, KeepsTexturesFogAndMaterials) {
+  STAGE_OR_SKIP(stage);
+  const std::string look =
+      "Environment { fogType HAZE fogColor 0.5 0.5 0.6 fogVisibility 25 ambientIntensity 0.4 ambientColor 1 0.9 0.8 }\n"
+      "Texture2 { image 2 2 3 0xffffff 0x8080ff 0xff8080 0x80ff80 }\n";
+  const auto root = sceneOf(room("", look + kThreeLights, kSolids));
+  judged(*stage, root.get(), "textures_and_fog");
+}
+
+TEST(Picture, KnowsTheCameraInsideTheGroupToo) {
+  STAGE_OR_SKIP(stage);
+  const auto outside = sceneOf(room("", kThreeLights, kSolids));
+  const auto inside = sceneOf(room("", kCamera + kThreeLights, kSolids, ""));
+  const auto below = sceneOf(room("", "Separator { " + kCamera + kThreeLights, kSolids + "}", ""));
+  const auto expected = stage->draw(outside.get());
+  EXPECT_EQ(
+      largestDifference(expected, judged(*stage, inside.get(), "camera_inside"), [](int, int) { return true; }).most,
+      0);
+  EXPECT_EQ(
+      largestDifference(expected, judged(*stage, below.get(), "camera_below"), [](int, int) { return true; }).most, 0);
+}
+
+TEST(Picture, HasEveryViewThatCoinHas) {
+  STAGE_OR_SKIP(stage);
+  const auto pinhole = sceneOf(room("", kThreeLights, kSolids));
+  stage->draw(pinhole.get());
+  // What lies behind a pinhole's pixels is seen by the other way, too, for the rays are the same.
+  const std::string frustum =
+      "FrustumCamera { position 1 3 8 orientation -1 0.2 0 0.32 nearDistance 0.5 farDistance 40 left -0.2 right 0.3 "
+      "top 0.2 bottom -0.2 }\n";
+  const std::string parallel =
+      "OrthographicCamera { position 1 3 8 orientation -1 0.2 0 0.32 nearDistance 0.5 farDistance 40 height 6 }\n";
+  for (const auto& [name, camera] : {std::pair{"frustum", frustum}, std::pair{"parallel", parallel}}) {
+    const auto root = sceneOf(room("", kThreeLights, kSolids, camera));
+    auto* group = groupOf(root.get());
+    const auto picture = stage->draw(root.get());
+    ASSERT_FALSE(group->lastError()) << group->lastError()->text();
+    EXPECT_FALSE(group->report().camera);
+    for (const LightShadow& light : group->report().lights) EXPECT_GT(shadowed(light), 500u) << name;
+    expectCoinsOwnPicture(*stage, root.get(), *group, picture);
+    save(picture, std::string("coin_") + name);
+  }
+}
+
+// The general way of seeing (rays from the near plane) against the techniques' own, in a view that both can take.
+TEST(Picture, IsTheSameByTheGeneralWayOfSeeing) {
+  STAGE_OR_SKIP(stage);
+  // A caster that is looked through asks for the general way; one behind the camera changes nothing else.
+  const std::string behind =
+      "Separator { Translation { translation 1 30 30 } Material { transparency 0.5 } Cube { width 0.1 height 0.1 depth "
+      "0.1 } }\n";
+  const auto root = sceneOf(room("transparentCasters OPAQUE", kThreeLights, kSolids + behind));
+  auto* group = groupOf(root.get());
+  stage->draw(root.get());
+  EXPECT_EQ(group->report().method, "ray_traced");
+  expectTrueShadows(*group, "general");
+}
+
+TEST(Picture, CastsThroughTransparentShapesAsAsked) {
+  STAGE_OR_SKIP(stage);
+  const std::string pane =
+      "Separator { Translation { translation 0 2 2 } Material { transparency 0.6 diffuseColor 0 0 1 } Cube { width 2 "
+      "height 0.1 depth 2 } }\n"
+      "Separator { Translation { translation -3 2 0 } Material { transparency 1 } Sphere { } }\n";
+  const auto root = sceneOf(room("", kOneLight, kSolids + pane));
+  auto* group = groupOf(root.get());
+  judged(*stage, root.get(), "pane_casts_nothing");
+  const std::size_t without = shadowed(group->report().lights.at(0));
+  const auto plain = sceneOf(room("", kOneLight, kSolids));
+  stage->draw(plain.get());
+  EXPECT_EQ(without, shadowed(groupOf(plain.get())->report().lights.at(0)));
+  group->transparentCasters = SoExactShadowGroup::OPAQUE;
+  const auto casting = stage->draw(root.get());
+  EXPECT_GT(shadowed(group->report().lights.at(0)), without + 100);
+  save(casting, "coin_pane_casts");
+}
+
+TEST(Picture, DrawsTransparentShapesOnceWhateverTheTypeOfTransparency) {
+  STAGE_OR_SKIP(stage);
+  const std::string pane =
+      "Separator { Translation { translation 0 0.5 3 } Material { transparency 0.5 diffuseColor 0 0 1 } Cube { width 2 "
+      "height 2 depth 0.1 } }\n"
+      "Annotation { Translation { translation 2 0 3 } Material { transparency 0.3 } Cube { width 0.5 height 0.5 depth "
+      "0.5 } }\n";
+  for (const auto type :
+       {SoGLRenderAction::NONE, SoGLRenderAction::SCREEN_DOOR, SoGLRenderAction::ADD, SoGLRenderAction::DELAYED_ADD,
+        SoGLRenderAction::BLEND, SoGLRenderAction::DELAYED_BLEND, SoGLRenderAction::SORTED_OBJECT_ADD,
+        SoGLRenderAction::SORTED_OBJECT_BLEND, SoGLRenderAction::SORTED_OBJECT_SORTED_TRIANGLE_BLEND}) {
+    stage->action().setTransparencyType(type);
+    const auto root = sceneOf(room("", kThreeLights, kSolids + pane));
+    auto* group = groupOf(root.get());
+    const auto picture = stage->draw(root.get());
+    ASSERT_FALSE(group->lastError()) << group->lastError()->text();
+    EXPECT_GT(group->report().passes, 3u);
+    expectCoinsOwnPicture(*stage, root.get(), *group, picture);
+    save(picture, "coin_transparency_" + std::to_string(type));
+  }
+}
+
+TEST(Picture, WithoutAStencilIsCoinsOwnAndSaysSo) {
+  const auto stage = Stage::make(kWidth, kHeight, false);
+  if (!stage) GTEST_SKIP() << "no OpenGL here";
+  const auto root = sceneOf(room("", kThreeLights, kSolids));
+  auto* group = groupOf(root.get());
+  const auto picture = stage->draw(root.get());
+  ASSERT_TRUE(group->lastError());
+  EXPECT_EQ(group->lastError()->code, ErrorCode::device);
+  group->isActive = FALSE;
+  EXPECT_EQ(largestDifference(picture, stage->draw(root.get()), [](int, int) { return true; }).most, 0);
+}
+
+TEST(Picture, BelowACachedNodeIsCoinsOwnAndSaysSo) {
+  STAGE_OR_SKIP(stage);
+  SoSeparator::setNumRenderCaches(2);
+  const auto root = sceneOf("Separator { " + kCamera + " Separator { renderCaching ON DEF GROUP ExactShadowGroup { " +
+                            kThreeLights + kSolids + "} } }");
+  for (int i = 0; i < 4; ++i) stage->draw(root.get());
+  const auto error = groupOf(root.get())->lastError();
+  SoSeparator::setNumRenderCaches(0);
+  ASSERT_TRUE(error);
+  EXPECT_NE(error->message.find("renderCaching"), std::string::npos);
+}
+
+TEST(Picture, ShowsCachedShapesBelowWithTheRightLights) {
+  STAGE_OR_SKIP(stage);
+  SoSeparator::setNumRenderCaches(2);
+  const auto root = sceneOf(room("", "", "Separator { renderCaching ON " + kThreeLights + kSolids + "}"));
+  auto* group = groupOf(root.get());
+  group->isActive = FALSE;
+  for (int i = 0; i < 4; ++i) stage->draw(root.get());  // Coin makes its caches, lights and all
+  group->isActive = TRUE;
+  image::RgbaImage picture;
+  for (int i = 0; i < 4; ++i) picture = stage->draw(root.get());
+  SoSeparator::setNumRenderCaches(0);
+  expectTrueShadows(*group, "cached");
+  expectCoinsOwnPicture(*stage, root.get(), *group, picture);
+}
+
+TEST(Picture, FewLightsOfASharedNodeAreToldApart) {
+  STAGE_OR_SKIP(stage);
+  const auto root = sceneOf(room(
+      "",
+      "Separator { DEF LAMP PointLight { location 3 5 4 } }\n Separator { USE LAMP } PointLight { location -3 5 4 }\n",
+      kSolids));
+  auto* group = groupOf(root.get());
+  stage->draw(root.get());
+  ASSERT_TRUE(group->lastError());
+  EXPECT_EQ(group->lastError()->code, ErrorCode::unsupported);
+  EXPECT_EQ(group->report().lights.size(), 1u);
+}
+
+TEST(Picture, LightsThatAreOffAreNone) {
+  STAGE_OR_SKIP(stage);
+  const auto root =
+      sceneOf(room("", "PointLight { on FALSE } DirectionalLight { intensity 0 } PointLight { color 0 0 0 }", kSolids));
+  stage->draw(root.get());
+  EXPECT_TRUE(groupOf(root.get())->report().lights.empty());
+  EXPECT_EQ(groupOf(root.get())->report().passes, 1u);
+}
+
+TEST(Picture, OfNothingHasAnEmptyReport) {
+  STAGE_OR_SKIP(stage);
+  const auto root = sceneOf(room("", kOneLight, kSolids));
+  auto* group = groupOf(root.get());
+  stage->draw(root.get());
+  ASSERT_EQ(group->report().lights.size(), 1u);
+  while (group->getNumChildren() > 1) group->removeChild(1);  // the lamp stays
+  stage->draw(root.get());
+  EXPECT_TRUE(group->report().lights.empty());
+  EXPECT_EQ(group->report().passes, 1u);
+  EXPECT_FALSE(group->lastError());
+}
+
+TEST(Picture, OfSeveralViewersOnOneSceneIsEachViewersOwn) {
+  STAGE_OR_SKIP(first);
+  const auto second = Stage::make(200, 150);
+  ASSERT_TRUE(second);
+  const auto scene = sceneOf("Separator { DEF GROUP ExactShadowGroup { " + kThreeLights + kSolids + "} }");
+  const auto view = [&](const std::string& camera) {
+    auto root = hold(new SoSeparator);
+    root->addChild(sceneOf(camera).get()->getChild(0));
+    root->addChild(scene->getChild(0));
+    return root;
+  };
+  const auto one = view(kCamera);
+  const auto other =
+      view("PerspectiveCamera { position -5 4 5 orientation -0.55 -0.75 -0.3 0.9 nearDistance 0.5 farDistance 40 }");
+  auto* group = groupOf(scene.get());
+  for (int i = 0; i < 2; ++i) {
+    first->enter();
+    const auto here = first->draw(one.get());
+    expectTrueShadows(*group, "first viewer");
+    expectCoinsOwnPicture(*first, one.get(), *group, here);
+    second->enter();
+    const auto there = second->draw(other.get());
+    expectTrueShadows(*group, "second viewer");
+    expectCoinsOwnPicture(*second, other.get(), *group, there);
+  }
+  EXPECT_EQ(group->work().extractions, 4u);
+  EXPECT_EQ(group->work().geometryBuilds, 1u);
+}
+
+TEST(Picture, LeavesTheHostsStateAlone) {
+  STAGE_OR_SKIP(stage);
+  const auto root = sceneOf(room("", kThreeLights, kSolids));
+  const auto plain = sceneOf(room("isActive FALSE", kThreeLights, kSolids));
+  state::WildHost host(true);
+  stage->enter();
+  stage->draw(plain.get());
+  const auto before = host.snapshot();
+  stage->draw(plain.get());
+  const auto without = host.snapshot();
+  stage->draw(root.get());
+  const auto with = host.snapshot();
+  EXPECT_EQ(state::difference(without, with), "");
+  EXPECT_EQ(state::difference(before, with), "");
+  // Coin goes on as if nothing had been: the next picture is what it was.
+  const auto picture = stage->draw(plain.get());
+  EXPECT_EQ(largestDifference(picture, stage->draw(plain.get()), [](int, int) { return true; }).most, 0);
+}
+
+// What is done between Coin's passes, in hosts of every state.
+TEST(Picture, StencilsLeaveWildHostsAlone) {
+  STAGE_OR_SKIP(stage);
+  state::WildHost host(true);
+  const std::vector<std::uint8_t> values(12, 5);
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    host.randomise(seed);
+    const auto before = host.snapshot();
+    {
+      gl::HostScope scope;
+      ASSERT_TRUE(gl::writeStencil(scope, values, {3, 4, 4, 3}));
+      gl::fillStencil(scope, 7, {0, 0, 9, 9});
+    }
+    { const gl::StencilWindow window(5, {1, 2, 30, 40}); }
+    ASSERT_EQ(state::difference(before, host.snapshot()), "") << "seed " << seed;
+  }
+}
+
+TEST(Picture, LeavesTheGraphAlone) {
+  STAGE_OR_SKIP(stage);
+  const auto root = sceneOf(room("", kThreeLights, kSolids));
+  const auto text = [&] {
+    SoOutput output;
+    output.setBuffer(std::malloc(1 << 16), 1 << 16, std::realloc);
+    SoWriteAction write(&output);
+    write.apply(root.get());
+    void* buffer = nullptr;
+    std::size_t size = 0;
+    output.getBuffer(buffer, size);
+    std::string out(static_cast<const char*>(buffer), size);
+    std::free(buffer);
+    return out;
+  };
+  const std::string before = text();
+  const auto id = root->getNodeId();
+  stage->draw(root.get());
+  EXPECT_EQ(root->getNodeId(), id);
+  EXPECT_EQ(text(), before);
+}
+
+TEST(Picture, ComesBackFromAFile) {
+  STAGE_OR_SKIP(stage);
+  const auto root = sceneOf(room("method Z_FAIL transparentCasters OPAQUE volumeDepth 3", kThreeLights, kSolids));
+  SoOutput output;
+  output.setBuffer(std::malloc(1 << 16), 1 << 16, std::realloc);
+  SoWriteAction write(&output);
+  write.apply(root.get());
+  void* buffer = nullptr;
+  std::size_t size = 0;
+  output.getBuffer(buffer, size);
+  SoInput input;
+  input.setBuffer(buffer, size);
+  const auto again = hold(SoDB::readAll(&input));
+  std::free(buffer);
+  auto* group = groupOf(again.get());
+  ASSERT_NE(group, nullptr);
+  EXPECT_EQ(group->method.getValue(), int(SoExactShadowGroup::Z_FAIL));
+  EXPECT_EQ(group->transparentCasters.getValue(), int(SoExactShadowGroup::OPAQUE));
+  EXPECT_EQ(group->volumeDepth.getValue(), 3.0f);
+  // Numbers are written with fewer digits than they have.
+  const auto found =
+      largestDifference(stage->draw(root.get()), stage->draw(again.get()), [](int, int) { return true; });
+  EXPECT_LE(found.pixels, 20u);
+}
+
+TEST(Picture, ShowsVolumesThroughWhichTheSceneIsSeen) {
+  STAGE_OR_SKIP(stage);
+  for (const char* depth : {"0", "2"}) {
+    const auto root = sceneOf(room(std::string("showVolumes TRUE volumeDepth ") + depth, kOneLight, kSolids));
+    const auto shown = stage->draw(root.get());
+    groupOf(root.get())->showVolumes = FALSE;
+    const auto plain = stage->draw(root.get());
+    const auto found = largestDifference(shown, plain, [](int, int) { return true; });
+    EXPECT_GT(found.pixels, 3000u);
+    EXPECT_LT(found.pixels, 70000u);
+    save(shown, std::string("coin_volumes_") + depth);
+  }
+}
+
+}  // namespace
+}  // namespace umbrage::coin::test
