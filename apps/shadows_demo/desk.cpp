@@ -1,0 +1,88 @@
+#include "desk.hpp"
+
+#include <Inventor/Qt/SoQt.h>
+#include <Inventor/nodes/SoSeparator.h>
+#include <fmt/format.h>
+#include <QApplication>
+#include <QKeyEvent>
+#include <QScreen>
+
+#include <cstdio>
+
+namespace umbrage::demo {
+namespace {
+
+constexpr int kQuietMilliseconds = 500;
+
+}  // namespace
+
+Desk::Desk(std::unique_ptr<Demo> demo, const Options& options) : options_(options), demo_(std::move(demo)) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(options.windows); ++i) {
+    windows_.push_back(std::make_unique<Window>(demo_->scene(), static_cast<int>(i), listenerOf(i)));
+    windows_.back()->resize(options.width, options.height);
+  }
+  quiet_.setSingleShot(true);
+  quiet_.setInterval(kQuietMilliseconds);
+  QObject::connect(&quiet_, &QTimer::timeout, [this] { savePicture(); });
+}
+
+Desk::~Desk() = default;
+
+void Desk::show() {
+  for (const auto& window : windows_) {
+    tell(*window);
+    window->viewer().show();
+    window->show();
+    window->viewer().getGLWidget()->setFocus();  // keys go there from the beginning
+  }
+}
+
+Viewer::Listener Desk::listenerOf(std::size_t window) {
+  return {[this, window](const QKeyEvent& event) { return press(*windows_[window], event); },
+          [this, window](double milliseconds) { drawn(*windows_[window], milliseconds); },
+          // The viewer's own setting up comes before it is in the list.
+          [this, window] { window < windows_.size() ? modeChanged(*windows_[window]) : void(); }};
+}
+
+bool Desk::press(Window& window, const QKeyEvent& event) {
+  const Key* key = keyOf(event.key());
+  if (key == nullptr || (key->actionOnly && window.viewer().isViewing())) return false;
+  if (event.isAutoRepeat() && !key->repeats) return true;
+  const Said said = key->press(*demo_);
+  message_ = fmt::format("{}: {}", key->name, said ? *said : "error: " + said.error().text());
+  log("key " + message_);
+  for (const auto& each : windows_) tell(*each);
+  return true;
+}
+
+void Desk::drawn(Window& window, double milliseconds) {
+  pace_ = fmt::format("{:.1f} frames per second ({:.0f} ms)", 1000.0 / std::max(milliseconds, 0.001), milliseconds);
+  ++pictures_;
+  if (options_.verbose) log(fmt::format("picture {}: {:.1f} ms, {}", pictures_, milliseconds, demo_->work()));
+  tell(window);
+  if (!options_.picture.empty()) quiet_.start();
+}
+
+void Desk::modeChanged(Window& window) {
+  log("mode: " + window.mode());
+  tell(window);
+}
+
+void Desk::tell(Window& window) {
+  const auto& problem = demo_->shadows().lastError();
+  window.tell(demo_->state() + " | " + pace_, problem ? problem->text() : message_);
+}
+
+void Desk::log(const std::string& line) const {
+  if (options_.verbose) fmt::print(stderr, "{}\n", line);
+}
+
+void Desk::savePicture() {
+  Window& window = *windows_.front();
+  const QPixmap picture = window.screen()->grabWindow(window.winId());
+  const bool saved = picture.save(QString::fromStdString(options_.picture.string()));
+  if (!saved) fmt::print(stderr, "error: {}: cannot be written\n", options_.picture.string());
+  QApplication::exit(saved ? 0 : exitCode(ErrorCode::output));
+}
+
+}  // namespace umbrage::demo
