@@ -17,6 +17,7 @@ constexpr int kQuietMilliseconds = 500;
 }  // namespace
 
 Desk::Desk(std::unique_ptr<Demo> demo, const Options& options) : options_(options), demo_(std::move(demo)) {
+  message_ = "S, then a click, goes there; shadows_demo -h lists the keys";
   for (std::size_t i = 0; i < static_cast<std::size_t>(options.windows); ++i) {
     windows_.push_back(std::make_unique<Window>(demo_->scene(), static_cast<int>(i), listenerOf(i)));
     windows_.back()->resize(options.width, options.height);
@@ -31,9 +32,7 @@ Desk::~Desk() = default;
 void Desk::show() {
   for (const auto& window : windows_) {
     tell(*window);
-    window->viewer().show();
-    window->show();
-    window->viewer().getGLWidget()->setFocus();  // keys go there from the beginning
+    window->open();
   }
 }
 
@@ -56,7 +55,7 @@ bool Desk::press(Window& window, const QKeyEvent& event) {
 }
 
 void Desk::drawn(Window& window, double milliseconds) {
-  pace_ = fmt::format("{:.1f} frames per second ({:.0f} ms)", 1000.0 / std::max(milliseconds, 0.001), milliseconds);
+  pace_ = fmt::format("{:.1f} frames per second ({:.0f} ms) | ", 1000.0 / std::max(milliseconds, 0.001), milliseconds);
   ++pictures_;
   if (options_.verbose) log(fmt::format("picture {}: {:.1f} ms, {}", pictures_, milliseconds, demo_->work()));
   tell(window);
@@ -70,7 +69,7 @@ void Desk::modeChanged(Window& window) {
 
 void Desk::tell(Window& window) {
   const auto& problem = demo_->shadows().lastError();
-  window.tell(demo_->state() + " | " + pace_, problem ? problem->text() : message_);
+  window.tell(pace_ + demo_->state(), problem ? problem->text() : message_);
 }
 
 void Desk::log(const std::string& line) const {

@@ -42,8 +42,6 @@ void Viewer::actualRedraw() {
 
 SbBool Viewer::receive(void* self, QEvent* event) {
   auto& viewer = *static_cast<Viewer*>(self);
-  // What a window system has thrown away SoQt does not draw again by itself.
-  if (event->type() == QEvent::Paint) viewer.scheduleRedraw();
   if (event->type() != QEvent::KeyPress) return FALSE;
   return viewer.listener_.key(*static_cast<QKeyEvent*>(event)) ? TRUE : FALSE;
 }

@@ -2,6 +2,8 @@
 
 #include <Inventor/nodes/SoPerspectiveCamera.h>
 #include <Inventor/nodes/SoSeparator.h>
+#include <QCoreApplication>
+#include <QKeyEvent>
 #include <QVBoxLayout>
 
 namespace umbrage::demo {
@@ -40,11 +42,33 @@ Window::Window(SoSeparator* scene, int number, const Viewer::Listener& listener)
   state_ = makeLine(this, *layout);
   message_ = makeLine(this, *layout);
   viewer_ = std::make_unique<Viewer>(place_, listener);
+  again_.setSingleShot(true);
+  QObject::connect(&again_, &QTimer::timeout, [this] { viewer_->render(); });
   viewer_->setSceneGraph(root_.get());
   viewer_->saveHomePosition();
 }
 
 Window::~Window() = default;
+
+void Window::keyPressEvent(QKeyEvent* event) {
+  if (passing_) return event->ignore();  // it has come back from there
+  passing_ = true;
+  QCoreApplication::sendEvent(viewer_->getGLWidget(), event);
+  passing_ = false;
+}
+
+bool Window::eventFilter(QObject* watched, QEvent* event) {
+  const QEvent::Type type = event->type();
+  if (type == QEvent::Paint || type == QEvent::Resize || type == QEvent::Show) again_.start();
+  return QWidget::eventFilter(watched, event);
+}
+
+void Window::open() {
+  viewer_->show();
+  viewer_->getGLWidget()->installEventFilter(this);
+  show();
+  viewer_->getGLWidget()->setFocus();
+}
 
 std::string Window::mode() const {
   if (viewer_->isSeekMode()) return "seek: click where to go";

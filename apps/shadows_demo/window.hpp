@@ -2,6 +2,7 @@
 
 #include <Inventor/nodes/SoSeparator.h>
 #include <QLabel>
+#include <QTimer>
 #include <QWidget>
 
 #include <functional>
@@ -21,9 +22,19 @@ class Window : public QWidget {
 
   [[nodiscard]] Viewer& viewer() { return *viewer_; }
   [[nodiscard]] std::string mode() const;
+  /// Shows the window, with the keys in the viewer.
+  void open();
   void tell(const std::string& state, const std::string& message);
 
+ protected:
+  /// Keys are the viewer's wherever in the window the mouse is.
+  void keyPressEvent(QKeyEvent* event) override;
+  /// SoQt does not draw again by itself what the window system has resized or thrown away.
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
+  bool passing_ = false;  ///< a key that the viewer has had already
+  QTimer again_;          ///< draws once all that has happened is known
   std::string title_;
   Ref<SoSeparator> root_;
   QWidget* place_;
