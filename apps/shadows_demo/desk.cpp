@@ -13,6 +13,7 @@ namespace umbrage::demo {
 namespace {
 
 constexpr int kQuietMilliseconds = 500;
+constexpr int kSmallFile = 0;  // Qt's scale for PNG: compressed most
 
 }  // namespace
 
@@ -30,6 +31,7 @@ Desk::Desk(std::unique_ptr<Demo> demo, const Options& options) : options_(option
 Desk::~Desk() = default;
 
 void Desk::show() {
+  for (const Key* key : options_.keys) press(*key);
   for (const auto& window : windows_) {
     tell(*window);
     window->open();
@@ -37,25 +39,28 @@ void Desk::show() {
 }
 
 Viewer::Listener Desk::listenerOf(std::size_t window) {
-  return {[this, window](const QKeyEvent& event) { return press(*windows_[window], event); },
+  return {[this, window](const QKeyEvent& event) { return receive(*windows_[window], event); },
           [this, window](double milliseconds) { drawn(*windows_[window], milliseconds); },
           // The viewer's own setting up comes before it is in the list.
           [this, window] { window < windows_.size() ? modeChanged(*windows_[window]) : void(); }};
 }
 
-bool Desk::press(Window& window, const QKeyEvent& event) {
+bool Desk::receive(Window& window, const QKeyEvent& event) {
   const Key* key = keyOf(event.key());
   if (key == nullptr || (key->actionOnly && window.viewer().isViewing())) return false;
-  if (event.isAutoRepeat() && !key->repeats) return true;
-  const Said said = key->press(*demo_);
-  message_ = fmt::format("{}: {}", key->name, said ? *said : "error: " + said.error().text());
-  log("key " + message_);
-  for (const auto& each : windows_) tell(*each);
+  if (key->repeats || !event.isAutoRepeat()) press(*key);
   return true;
 }
 
+void Desk::press(const Key& key) {
+  const Said said = key.press(*demo_);
+  message_ = fmt::format("{}: {}", key.name, said ? *said : "error: " + said.error().text());
+  log("key " + message_);
+  for (const auto& each : windows_) tell(*each);
+}
+
 void Desk::drawn(Window& window, double milliseconds) {
-  pace_ = fmt::format("{:.1f} frames per second ({:.0f} ms) | ", 1000.0 / std::max(milliseconds, 0.001), milliseconds);
+  pace_ = fmt::format("{:.1f} fps ({:.0f} ms) | ", 1000.0 / std::max(milliseconds, 0.001), milliseconds);
   ++pictures_;
   if (options_.verbose) log(fmt::format("picture {}: {:.1f} ms, {}", pictures_, milliseconds, demo_->work()));
   tell(window);
@@ -79,7 +84,7 @@ void Desk::log(const std::string& line) const {
 void Desk::savePicture() {
   Window& window = *windows_.front();
   const QPixmap picture = window.screen()->grabWindow(window.winId());
-  const bool saved = picture.save(QString::fromStdString(options_.picture.string()));
+  const bool saved = picture.save(QString::fromStdString(options_.picture.string()), "PNG", kSmallFile);
   if (!saved) fmt::print(stderr, "error: {}: cannot be written\n", options_.picture.string());
   QApplication::exit(saved ? 0 : exitCode(ErrorCode::output));
 }

@@ -20,7 +20,8 @@ class Desk {
 
  private:
   [[nodiscard]] Viewer::Listener listenerOf(std::size_t window);
-  bool press(Window& window, const QKeyEvent& event);
+  bool receive(Window& window, const QKeyEvent& event);
+  void press(const Key& key);
   void drawn(Window& window, double milliseconds);
   void modeChanged(Window& window);
   void tell(Window& window);

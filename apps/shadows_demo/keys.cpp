@@ -62,6 +62,11 @@ const Key* keyOf(int code) {
   return found != std::end(kKeys) ? &*found : nullptr;
 }
 
+const Key* keyNamed(const std::string& name) {
+  const auto found = std::ranges::find_if(kKeys, [&](const Key& key) { return name == key.name; });
+  return found != std::end(kKeys) ? &*found : nullptr;
+}
+
 std::string keyHelp() {
   std::string text =
       "ESC changes the mode. Viewer: the mouse moves the camera; S, then a click, goes to what is clicked.\n"

@@ -23,6 +23,9 @@ struct Key {
 /// The key with this Qt::Key, or null.
 [[nodiscard]] const Key* keyOf(int code);
 
+/// The key that the help names so, or null.
+[[nodiscard]] const Key* keyNamed(const std::string& name);
+
 /// All keys and modes, for --help.
 [[nodiscard]] std::string keyHelp();
 

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
 
-#include "keys.hpp"
 #include "umbrage/base/error.hpp"
 
 namespace umbrage::demo {
@@ -44,6 +44,15 @@ std::string takeMethod(const std::string& word, Options& options) {
   return {};
 }
 
+std::string takeKeys(const std::string& word, Options& options) {
+  std::istringstream names(word);
+  for (std::string name; std::getline(names, name, ',');) {
+    options.keys.push_back(keyNamed(name));
+    if (options.keys.back() == nullptr) return fmt::format("there is no key '{}'", name);
+  }
+  return {};
+}
+
 void addWord(CLI::App& app, const char* name, const char* form, const char* help,
              std::function<std::string(std::string&)> take) {
   app.add_option(
@@ -70,6 +79,8 @@ void declare(CLI::App& app, Options& options) {
       ->type_name("FOLDER");
   app.add_option("--picture", options.picture, "Writes a picture of the window there (.png) and ends")
       ->type_name("FILE");
+  addWord(app, "--press", "KEYS", "Keys to press at the beginning, by the names below: 2,O,F2",
+          [&](std::string& word) { return takeKeys(word, options); });
   app.add_flag("--verbose", options.verbose, "Tells on standard error what each key did and what each picture took");
 }
 

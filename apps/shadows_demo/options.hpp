@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "keys.hpp"
 #include "umbrage/coin/settings.hpp"
 
 namespace umbrage::demo {
@@ -16,6 +17,7 @@ struct Options {
   int windows = 1;
   std::filesystem::path folder = ".";  ///< where the keys V and X write
   std::filesystem::path picture;       ///< a picture of the window is written there and the program ends
+  std::vector<const Key*> keys;        ///< pressed at the beginning
   bool verbose = false;
 };
 

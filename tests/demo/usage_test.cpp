@@ -30,19 +30,15 @@ const std::vector<std::string> kNoDisplay{"DISPLAY=", "WAYLAND_DISPLAY=", "QT_QP
 TEST(Usage, HelpHasEveryOptionAndKeyAndNeedsNoDisplay) {
   const Ended help = run({"-h"}, kNoDisplay);
   EXPECT_EQ(help.code, 0);
-  for (const char* word : {"--file",    "--size",
-                           "--method",  "--windows",
-                           "--folder",  "--picture",
-                           "--verbose", "ESC",
-                           "F1 ",       "F2 ",
-                           "F3 ",       "F4 ",
-                           "F5 F6",     "F7 F8",
-                           "F9",        "F11 F12",
-                           "{ }",       "1 2 3 4",
-                           "5 ",        "6 ",
-                           "O ",        "V ",
-                           "X ",        "Left Right",
-                           "Up Down",   "PageUp PageDown"})
+  for (const char* word : {"--file",     "--size",    "--method",
+                           "--windows",  "--folder",  "--picture",
+                           "--press",    "--verbose", "ESC",
+                           "F1 ",        "F2 ",       "F3 ",
+                           "F4 ",        "F5 F6",     "F7 F8",
+                           "F9",         "F11 F12",   "{ }",
+                           "1 2 3 4",    "5 ",        "6 ",
+                           "O ",         "V ",        "X ",
+                           "Left Right", "Up Down",   "PageUp PageDown"})
     EXPECT_THAT(help.said, HasSubstr(word));
 }
 
@@ -62,6 +58,7 @@ TEST(Usage, MistakesAreToldWithExitCodes) {
   EXPECT_EQ(run({"--size", "800"}, kNoDisplay).code, 2);
   EXPECT_EQ(run({"--size", "800x600x2"}, kNoDisplay).code, 2);
   EXPECT_EQ(run({"--windows", "9"}, kNoDisplay).code, 2);
+  EXPECT_EQ(run({"--press", "F1,F99"}, kNoDisplay).code, 2);
   EXPECT_EQ(run({"--nonsense"}, kNoDisplay).code, 2);
   EXPECT_EQ(run({}, kNoDisplay).code, 4);
   EXPECT_THAT(run({}, kNoDisplay).said, HasSubstr("DISPLAY"));

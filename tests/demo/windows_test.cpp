@@ -62,6 +62,15 @@ TEST_F(Windows, AVrmlModelIsShown) {
   EXPECT_GT(object(view()).pixels, 1000u);
 }
 
+TEST_F(Windows, KeysCanBePressedAtTheBeginning) {
+  start();
+  const View one = view();
+  press("2", "added");
+  const View two = changedFrom(one);
+  start({"--press", "2"});
+  expectAgain(two);
+}
+
 TEST_F(Windows, ThePictureOptionWritesTheWindowAndEnds) {
   const auto file = folder() / "window.png";
   Process demo({UMBRAGE_DEMO, "--size", "400x300", "--picture", file.string()}, display().environment(),
