@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "model.hpp"
 #include "room.hpp"
@@ -81,9 +82,14 @@ std::string Demo::state() const {
 
 std::string Demo::work() const {
   if (!shadowed()) return "no shadows";
-  if (const auto& problem = shadows_.lastError()) return problem->text();
+  if (const auto why = problem(); !why.empty()) return why;
   const auto& report = shadows_.report();
   return fmt::format("{} passes, {}", report.passes, report.method);
+}
+
+std::string Demo::problem() const {
+  const auto& error = shadows_.lastError();
+  return shadowed() && error ? error->text() : std::string();
 }
 
 bool Demo::shadowed() const { return shadows_.settings().sceneType != coin::SceneType::withoutShadows; }

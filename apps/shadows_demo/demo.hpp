@@ -21,12 +21,13 @@ class Demo {
 
   /// What viewers show, each with a camera of its own before it.
   [[nodiscard]] SoSeparator* scene() const { return shadows_.shadowSceneRoot(); }
-  [[nodiscard]] const coin::ShadowManager& shadows() const { return shadows_; }
   /// How everything stands, in one line.
   [[nodiscard]] std::string state() const;
 
   /// How the last picture got its shadows.
   [[nodiscard]] std::string work() const;
+  /// Why it has none, or not all; empty where it has what it should.
+  [[nodiscard]] std::string problem() const;
 
   // One for each key (keys.cpp).
   [[nodiscard]] Said toggleShadows();

@@ -1,12 +1,12 @@
 #include "desk.hpp"
 
-#include <Inventor/Qt/SoQt.h>
 #include <Inventor/nodes/SoSeparator.h>
 #include <fmt/format.h>
 #include <QApplication>
 #include <QKeyEvent>
 #include <QScreen>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace umbrage::demo {
@@ -73,8 +73,8 @@ void Desk::modeChanged(Window& window) {
 }
 
 void Desk::tell(Window& window) {
-  const auto& problem = demo_->shadows().lastError();
-  window.tell(pace_ + demo_->state(), problem ? problem->text() : message_);
+  const std::string problem = demo_->problem();
+  window.tell(pace_ + demo_->state(), problem.empty() ? message_ : problem);
 }
 
 void Desk::log(const std::string& line) const {
