@@ -29,6 +29,7 @@ const std::vector<ForeignRule>& foreignRules() {
       {"assimp/", {"io"}},
       {"tiny_gltf.h", {"io"}},
       {"Inventor/", {"inventor", "io", "coin", "apps", "tests", "examples", "benchmarks"}, true},
+      {"Q", {"apps", "examples"}},
       {"geos", {"io"}},
       {"proj.h", {"geo"}},
       {"gdal", {"io", "report"}},

@@ -3,6 +3,7 @@
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libfontconfig\n"                         // its cache of fonts
+         "leak:libdbus-1\n"                             // Qt's way to screen readers
          "leak:SoShadowStyleElement::createInstance\n"  // what Coin makes once for a class and for its clock
          "leak:SoGLShadowCullingElement::createInstance\n"
          "leak:SoSFTime::createInstance\n"
