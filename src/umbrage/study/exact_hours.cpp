@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "umbrage/base/check.hpp"
+#include "umbrage/study/detail/coverage_rooms.hpp"
 #include "umbrage/study/detail/hours_build.hpp"
 #include "umbrage/study/detail/hours_groups.hpp"
 #include "umbrage/study/detail/hours_solve.hpp"
@@ -74,46 +75,6 @@ struct ReadyLeg {
     }
   }
 };
-
-// ---- coverages that grow
-
-constexpr std::int32_t kRoom = 48, kSpare = 24;
-
-struct Room {
-  std::vector<float> from, to;
-  Room() : from(kRoom + kSpare, detail::kNever), to(kRoom + kSpare, detail::kNever) {}
-};
-
-struct Rooms {
-  std::array<Room, detail::kGroup> rooms, probes;
-};
-// The traversal knows plain data only, so a coverage finds its room by its own thread.
-thread_local Rooms* roomsOfThread = nullptr;
-
-void growCoverage(Coverage& c) {
-  for (auto* rooms : {&roomsOfThread->rooms, &roomsOfThread->probes})
-    for (Room& room : *rooms) {
-      if (room.from.data() != c.from) continue;
-      c.capacity *= 2;
-      room.from.resize(static_cast<std::size_t>(c.capacity + kSpare), detail::kNever);
-      room.to.resize(static_cast<std::size_t>(c.capacity + kSpare), detail::kNever);
-      c.from = room.from.data(), c.to = room.to.data();
-      return;
-    }
-}
-
-Coverage emptyCoverage(Room& room, const SunLeg& leg) {
-  std::fill_n(room.from.begin(), 16, detail::kNever);
-  std::fill_n(room.to.begin(), 16, detail::kNever);
-  const auto first = float(leg.first), last = float(leg.last);
-  return {room.from.data(),
-          room.to.data(),
-          0,
-          static_cast<std::int32_t>(room.from.size()) - kSpare,
-          first,
-          64.0f / (last - first),
-          0};
-}
 
 // ---- what the traversal asks back, in double precision
 
@@ -194,7 +155,7 @@ bool touchQuad(void* context, std::uint32_t point, std::uint32_t quad, Coverage&
     const Vec3 side = group.side(seen, k);
     if (side != Vec3(0.0)) dark = overlap(dark, detail::stretchesInside(group.leg, side));
   }
-  for (const auto& [from, to] : dark) detail::addPlain(covered, float(from), float(to), growCoverage);
+  for (const auto& [from, to] : dark) detail::addPlain(covered, float(from), float(to), detail::growCoverage);
   return true;
 }
 
@@ -208,7 +169,7 @@ class Worker {
   // Appends what lights each of the group's receivers.
   void light(std::span<const Receiver> receivers, std::span<const std::uint32_t> members,
              std::array<std::vector<TimeSpan>, detail::kGroup>& lit) {
-    roomsOfThread = &rooms_;
+    detail::useRooms(rooms_);
     Vec3 low(std::numeric_limits<double>::infinity()), high(-low);
     CoverJob job{};
     box_ = {};
@@ -254,7 +215,7 @@ class Worker {
     job.balls = hours_.tree.balls.data(), job.ballRoot = hours_.tree.ballRoot;
     job.sinLatitude = float(f.sinLatitude), job.cosLatitude = float(f.cosLatitude);
     job.contact = float(hours_.contact);
-    job.grow = growCoverage, job.refine = refineEdges, job.touch = touchQuad;
+    job.grow = detail::growCoverage, job.refine = refineEdges, job.touch = touchQuad;
   }
 
   // The ways the points face, for leaving out what is behind all of them.
@@ -288,7 +249,7 @@ class Worker {
     if (normal == Vec3(0.0)) return;
     double dark = leg.first;
     const auto cover = [&](double to) {
-      if (dark < to) detail::addPlain(covered, float(dark), float(to), growCoverage);
+      if (dark < to) detail::addPlain(covered, float(dark), float(to), detail::growCoverage);
     };
     for (const auto& [from, to] : detail::stretchesInside(leg, hours_.frame.turning(normal))) {
       cover(from);
@@ -326,7 +287,7 @@ class Worker {
     Coverage start{};
     for (int i = 0; i < job.count; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      job.covered[i] = emptyCoverage(rooms_.rooms[k], leg);
+      job.covered[i] = detail::emptyCoverage(rooms_.rooms[k], leg);
       if (i > 0 && normals_[k] == normals_[0] && start.count < 8)
         copyStart(start, job.covered[i]);
       else
@@ -348,16 +309,16 @@ class Worker {
     probe.inside = true;
     std::uint32_t open = 0;
     for (int i = 0; i < job.count; ++i) {
-      const auto [from, to] = longestGap(job.covered[i], float(leg.first), float(leg.last));
+      const auto [from, to] = detail::longestGap(job.covered[i], float(leg.first), float(leg.last));
       if (from < to && to - from < kLeast) return true;
       const float middle = 0.5f * (from + to), half = std::min(kHalf, 0.25f * (to - from));
-      probe.covered[i] = emptyCoverage(rooms_.probes[static_cast<std::size_t>(i)], leg);
+      probe.covered[i] = detail::emptyCoverage(rooms_.probes[static_cast<std::size_t>(i)], leg);
       if (from < to) {
         open |= 1u << i;
-        detail::addPlain(probe.covered[i], float(leg.first), middle - half, growCoverage);
-        detail::addPlain(probe.covered[i], middle + half, float(leg.last), growCoverage);
+        detail::addPlain(probe.covered[i], float(leg.first), middle - half, detail::growCoverage);
+        detail::addPlain(probe.covered[i], middle + half, float(leg.last), detail::growCoverage);
       } else {
-        detail::addPlain(probe.covered[i], float(leg.first), float(leg.last), growCoverage);
+        detail::addPlain(probe.covered[i], float(leg.first), float(leg.last), detail::growCoverage);
       }
     }
     if (open == 0) return false;
@@ -365,17 +326,6 @@ class Worker {
     for (int i = 0; i < job.count; ++i)
       if ((open >> i & 1u) != 0 && probe.covered[i].count == 1) return true;
     return false;
-  }
-
-  static std::pair<float, float> longestGap(const Coverage& covered, float first, float last) {
-    std::pair<float, float> longest{first, first};
-    float from = first;
-    for (std::int32_t i = 0; i <= covered.count; ++i) {
-      const float to = i == covered.count ? last : std::min(covered.from[i], last);
-      if (to - from > longest.second - longest.first) longest = {from, to};
-      if (i < covered.count) from = std::max(from, covered.to[i]);
-    }
-    return longest;
   }
 
   void addGaps(const SunLeg& leg, const Coverage& covered, std::vector<TimeSpan>& lit) const {
@@ -408,7 +358,7 @@ class Worker {
   std::span<const ReadyLeg> legs_;
   const SunCourse& course_;
   bool wide_;
-  Rooms rooms_;
+  detail::CoverageRooms rooms_;
   std::array<Vec3, detail::kGroup> positions_;
   std::vector<std::int32_t> within_;
   std::array<Vec3, detail::kGroup> normals_;
@@ -435,27 +385,6 @@ SunHours inOrder(const std::vector<Where>& where, const std::vector<Found>& foun
 }
 
 }  // namespace
-
-// ---- SunHours
-
-milliseconds SunHours::total(std::size_t receiver) const {
-  milliseconds sum{0};
-  for (const TimeSpan& s : lit(receiver)) sum += s.length();
-  return sum;
-}
-
-milliseconds SunHours::longest(std::size_t receiver) const {
-  milliseconds most{0};
-  for (const TimeSpan& s : lit(receiver)) most = std::max(most, s.length());
-  return most;
-}
-
-SunHours::Runs SunHours::runs(std::size_t receiver, milliseconds least) const {
-  Runs runs;
-  for (const TimeSpan& s : lit(receiver))
-    if (s.length() >= least) ++runs.count, runs.total += s.length();
-  return runs;
-}
 
 // ---- ExactHours
 

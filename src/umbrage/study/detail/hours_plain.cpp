@@ -3,6 +3,7 @@
 
 namespace umbrage::study::detail {
 namespace plain {
+#include "umbrage/study/detail/coverage_lanes.hpp"
 #include "umbrage/study/detail/hours_cover.hpp"
 }  // namespace plain
 void coverPlain(CoverJob& job) { plain::cover(job); }

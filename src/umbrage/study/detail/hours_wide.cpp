@@ -6,6 +6,7 @@
 
 namespace umbrage::study::detail {
 namespace wide {
+#include "umbrage/study/detail/coverage_lanes.hpp"
 #include "umbrage/study/detail/hours_cover.hpp"
 }  // namespace wide
 void coverWide(CoverJob& job) { wide::cover(job); }
