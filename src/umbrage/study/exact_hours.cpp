@@ -83,6 +83,7 @@ struct GroupContext {
   const SunLeg& leg;
   const Vec3* positions;  // relative to the origin, by number in the group
   const Vec3* normals;    // unit or 0
+  bool inwards = false;   // a point touches a closed solid and faces into it
 
   struct Seen {
     Vec3 corner[4];
@@ -97,11 +98,14 @@ struct GroupContext {
     return s;
   }
 
+  // Which side of a quad the eye sees: -1 the one about which its corners are counter-clockwise.
+  [[nodiscard]] static double seenSide(const Seen& s) { return glm::dot(s.area, s.corner[0]) < 0.0 ? -1.0 : 1.0; }
+
   // Through edge k and the eye, its normal to the inner side; 0 for an edge without length.
-  [[nodiscard]] Vec3 side(const Seen& s, int k) const {
+  [[nodiscard]] Vec3 side(const Seen& s, int k, double seen) const {
     const Vec3 &a = s.corner[k], &b = s.corner[(k + 1) & 3];
     if (a == b) return Vec3(0.0);
-    return hours.frame.turning(glm::cross(a, b) * (glm::dot(s.area, s.corner[0]) < 0.0 ? -1.0 : 1.0));
+    return hours.frame.turning(glm::cross(a, b) * seen);
   }
 };
 
@@ -111,7 +115,8 @@ bool refineEdges(void* context, std::uint32_t point, std::uint32_t quad, std::ui
   const GroupContext::Seen seen = group.see(point, quad);
   for (; lanes != 0; lanes &= lanes - 1) {
     const int k = std::countr_zero(lanes);
-    if (!detail::hoursInside(group.leg, group.leg.arcs[arc], group.side(seen, k), first, last, from[k], to[k]))
+    if (!detail::hoursInside(group.leg, group.leg.arcs[arc], group.side(seen, k, GroupContext::seenSide(seen)), first,
+                             last, from[k], to[k]))
       return false;
   }
   return true;
@@ -135,24 +140,43 @@ detail::Stretches overlap(const detail::Stretches& a, const detail::Stretches& b
   return out;
 }
 
+// The foot of the eye on the quad's plane; where it is as near to a corner or an edge as may be rounding, that corner or the edge. So each of
+// the faces that meet there hides what lies on its own side, and no more and no less.
+Vec3 footOn(const GroupContext::Seen& s, const Vec3& unit, double margin) {
+  const Vec3 foot = unit * glm::dot(unit, s.corner[0]);
+  for (const Vec3& corner : s.corner)
+    if (glm::distance(corner, foot) <= margin) return corner;
+  for (int k = 0; k < 4; ++k) {
+    const Vec3 &a = s.corner[k], edge = s.corner[(k + 1) & 3] - a;
+    const double length2 = glm::dot(edge, edge);
+    if (!(length2 > 0.0)) continue;
+    const Vec3 onEdge = a + (glm::dot(foot - a, edge) / length2) * edge;
+    if (glm::distance(onEdge, foot) <= margin) return onEdge;
+  }
+  return foot;
+}
+
 bool touchQuad(void* context, std::uint32_t point, std::uint32_t quad, Coverage& covered) {
-  const auto& group = *static_cast<const GroupContext*>(context);
+  auto& group = *static_cast<GroupContext*>(context);
   GroupContext::Seen seen = group.see(point, quad);
   const Vec3 unit = glm::normalize(seen.area);
   const double depth = glm::dot(unit, seen.corner[0]);
   if (std::abs(depth) > group.hours.contact || !standsOn(seen, unit, group.hours.contact)) return false;
   constexpr double kUpright =
       0.05;  // the sine between a surface and the receiver's plane below which neither side is meant
-  const double facing = glm::dot(unit, group.normals[point]);
+  double above = glm::dot(unit, group.normals[point]);
   const double nothing = 1e-12 * group.hours.tree.reach;
-  if (group.normals[point] == Vec3(0.0)) return true;
-  if (std::abs(facing) < kUpright) return std::abs(depth) <= nothing;
-  // Seen from just above the surface, on the side the receiver faces.
-  const Vec3 lift = unit * (std::copysign(nothing, facing) + depth);
-  for (Vec3& corner : seen.corner) corner -= lift;
+  if (std::abs(above) < kUpright) {
+    if (group.hours.tree.closed[quad] == 0) return group.normals[point] == Vec3(0.0) || std::abs(depth) <= nothing;
+    above = 1.0;  // nobody stands inside who does not say so
+  }
+  group.inwards = group.inwards || above < 0.0;
+  // Seen from just above the surface.
+  const Vec3 eye = footOn(seen, unit, group.hours.contact) + unit * std::copysign(nothing, above);
+  for (Vec3& corner : seen.corner) corner -= eye;
   detail::Stretches dark{{group.leg.first, group.leg.last}};
   for (int k = 0; k < 4 && !dark.empty(); ++k) {
-    const Vec3 side = group.side(seen, k);
+    const Vec3 side = group.side(seen, k, above > 0.0 ? -1.0 : 1.0);  // told, since rounding may bend the quad
     if (side != Vec3(0.0)) dark = overlap(dark, detail::stretchesInside(group.leg, side));
   }
   for (const auto& [from, to] : dark) detail::addPlain(covered, float(from), float(to), detail::growCoverage);
@@ -276,7 +300,7 @@ class Worker {
     // Who is outside is hidden by the faces towards him alone. Few are inside, so all are taken to be outside first.
     job.inside = false;
     traverse(job, leg);
-    if (job.withinCount > 0 && anyInside(job, leg)) {
+    if (job.withinCount > 0 && (context.inwards || anyInside(job, leg))) {
       job.inside = true;
       traverse(job, leg);
     }

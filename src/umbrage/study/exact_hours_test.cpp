@@ -199,6 +199,75 @@ TEST(ExactHours, surfacesThatTouchTheReceiver) {
   EXPECT_EQ(lit.total(6), 0ms);
 }
 
+TEST(ExactHours, atTheFootOfAClosedWallFacingUp) {
+  // The wall hides what is behind it, as just before it, whichever wall it is and whatever rounding makes of where the point lies.
+  for (const double turn : {0.0, 0.3}) {
+    mesh::Mesh m;
+    hours_tests::addBox(m, {0, 0}, {5, 5}, turn, 0, 10);
+    const scene::Scene box = sceneOf(m);
+    const SunCourse course = dayOf(2026y / std::chrono::June / 21);
+    for (const int corner : {0, 1, 2, 3}) {
+      constexpr int kNext[] = {1, 3, 0, 2};
+      const Vec3 a = m.positions[static_cast<std::size_t>(corner)],
+                 b = m.positions[static_cast<std::size_t>(kNext[corner])];
+      const Vec3 out = glm::normalize(glm::cross(b - a, Vec3(0, 0, 1)));
+      std::vector<Receiver> at, before;
+      for (int i = 1; i < 8; ++i) {
+        const Vec3 foot = a + (b - a) * (i / 8.0) + Vec3(0, 0, 1);
+        at.push_back({foot, {0, 0, 1}}), before.push_back({foot + 2e-5 * out, {0, 0, 1}});
+      }
+      expectSame(hoursAt(box, at, course), hoursAt(box, before, course), 1.0);
+      for (const Receiver& alone : at)
+        expectSame(hoursAt(box, {alone}, course), hoursAt(box, {{alone.position + 2e-5 * out, {0, 0, 1}}}, course),
+                   1.0);
+    }
+  }
+}
+
+TEST(ExactHours, onRidgesAndCorners) {
+  // A house with a gable roof, turned: nothing hides the sky from its ridge, and nothing from its corners that face up.
+  for (const double turn : {0.0, 0.3, 1.1}) {
+    mesh::Mesh m;
+    const auto at = [&](double x, double y, double z) {
+      m.positions.push_back(
+          {0.1 + std::cos(turn) * x - std::sin(turn) * y, std::sin(turn) * x + std::cos(turn) * y, z});
+    };
+    for (const double y : {-6.0, 6.0}) at(-4, y, 0), at(4, y, 0), at(4, y, 5), at(0, y, 9), at(-4, y, 5);
+    m.triangles = {{0, 1, 2}, {0, 2, 4}, {4, 2, 3}, {5, 7, 6}, {5, 9, 7}, {9, 8, 7}, {0, 5, 1}, {1, 5, 6},
+                   {1, 6, 2}, {2, 6, 7}, {0, 4, 5}, {4, 9, 5}, {2, 7, 3}, {3, 7, 8}, {4, 3, 8}, {4, 8, 9}};
+    std::vector<Receiver> ridge{{m.positions[3], {0, 0, 1}}, {m.positions[8], {0, 0, 1}}};
+    for (int i = 1; i < 12; ++i)
+      ridge.push_back({m.positions[3] + (m.positions[8] - m.positions[3]) * (i / 12.0), {0, 0, 1}});
+    const SunCourse course = dayOf(2026y / std::chrono::June / 21);
+    const SunHours lit = hoursAt(sceneOf(m), ridge, course);
+    for (std::size_t i = 0; i < ridge.size(); ++i)
+      EXPECT_NEAR(seconds(lit.total(i)), seconds(course.upTime()), 1.0) << i;
+  }
+}
+
+TEST(ExactHours, onTheCornersOfASmoothSolid) {
+  // As just before them.
+  const mesh::Mesh m = hours_tests::ring(20, 6, 25, 60, 24);
+  std::vector<Vec3> normals(m.positions.size(), Vec3(0.0));
+  for (const mesh::Triangle& t : m.triangles)
+    for (const std::uint32_t c : t)
+      normals[c] +=
+          glm::normalize(glm::cross(m.positions[t[1]] - m.positions[t[0]], m.positions[t[2]] - m.positions[t[0]]));
+  const scene::Surfaces flat = scene::flatten(sceneOf(m));
+  std::vector<Receiver> at, before;
+  for (std::size_t i = 0; i < m.positions.size(); i += 7) {
+    const Vec3 n = glm::normalize(normals[i]);
+    // Outwards, whichever way the mesh is wound.
+    const Vec3 centre(0, 0, 25), way = m.positions[i] - centre;
+    const Vec3 flatWay = way - glm::dot(way, Vec3(0, -0.8, 0.6)) * Vec3(0, -0.8, 0.6);
+    const Vec3 out = glm::dot(m.positions[i] - centre - 20.0 * glm::normalize(flatWay), n) < 0.0 ? -n : n;
+    at.push_back({m.positions[i], out}), before.push_back({m.positions[i] + 1e-4 * out, out});
+  }
+  const SunCourse course = dayOf(2026y / std::chrono::September / 18);
+  const SunHours on = hoursAt(sceneOf(m), at, course), off = hoursAt(sceneOf(m), before, course);
+  for (std::size_t i = 0; i < at.size(); ++i) EXPECT_NEAR(seconds(on.total(i)), seconds(off.total(i)), 60.0) << i;
+}
+
 TEST(ExactHours, aSlopeHidesWhatIsBehindItWhateverTheNormalSays) {
   // A plane that falls to the north at 45 degrees; the receiver on it, once with the slope's normal and once upright.
   mesh::Mesh m;
