@@ -61,7 +61,8 @@ struct ExactHoursOptions {
 /// 3. Lit or dark stretches shorter than 0.1 s may be left out.
 /// 4. A receiver lies on the side of a surface that its normal points to, where it touches it (nearer than kContact of the
 ///    scene's largest coordinate): a wall's own triangles do not hide the sun from it while the sun is before the wall, and a
-///    slope does while the sun is behind the slope, whatever the normal says.
+///    slope does while the sun is behind the slope, whatever the normal says. Where the normal runs along the surface or is 0, it lies outside of a
+///    closed solid. On an edge or a corner each face hides what lies behind it on its own side.
 /// 5. A receiver is dark while the sun is behind its own plane, and within a closed solid.
 /// 6. The same receivers get the same times whatever their order, apart from 2, and whatever the number of threads.
 class ExactHours {

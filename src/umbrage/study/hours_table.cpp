@@ -140,9 +140,9 @@ std::vector<LedgerLine> ledgerOf(const scene::Scene& scene, const HoursTable& t)
           {"Receivers", t.set.described},
           castersLine(r.casters),
           {"Opacity", fmt::format("surfaces that are not opaque: {}", transparent[static_cast<int>(r.transparent)])},
-          {"Time",
-           r.sampled ? fmt::format("sampled every {:g} min, in the middles of steps", double(r.sampled->count()) / 60e3)
-                     : std::string("exact: solved for the moments at which edges uncover and cover the sun")},
+          {"Time", r.sampled ? fmt::format("the exact hours, sampled every {:g} min in the middles of steps",
+                                           double(r.sampled->count()) / 60e3)
+                             : std::string("exact: solved for the moments at which edges uncover and cover the sun")},
           inputLine(scene),
           versionLine(r.sampled ? "sampled sun hours" : "exact sun hours", r.zone)};
 }
@@ -220,9 +220,11 @@ std::string stretchesText(const HoursTable& table, std::size_t receiver) {
     const auto date = std::chrono::year_month_day(sys_days(r.date) + std::chrono::days(d));
     for (const TimeSpan& span : table.lit[d].lit(receiver)) {
       const auto clock = [&](sun::Instant t) {
-        const auto reading = sun::clockAt(r.zone, r.place, std::chrono::round<std::chrono::seconds>(t));
-        auto seconds = std::chrono::duration_cast<std::chrono::seconds>(reading.clock.time).count();
-        if (sys_days(reading.clock.date) > sys_days(date)) seconds += 86400;  // the end of the day is 24:00:00
+        const auto reading = sun::clockAt(r.zone, r.place, t);
+        auto seconds = std::chrono::round<std::chrono::seconds>(reading.clock.time).count();
+        seconds += 86400 * (sys_days(reading.clock.date) - sys_days(date)).count();
+        seconds =
+            std::clamp<long long>(seconds, 0, 86400);  // the end of the day is 24:00:00, and rounding stays within it
         return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
       };
       text += fmt::format("{}{}{}-{}", text.empty() ? "" : ";", table.days.size() > 1 ? sun::dateText(date) + " " : "",

@@ -123,5 +123,19 @@ TEST(HoursTable, samplesAreWeightedAsWell) {
   EXPECT_NEAR(hoursAtOrigin(scene, request), exact, 3.0 / 60.0);
 }
 
+TEST(HoursTable, aPolarDayGoesFromMidnightToMidnight) {
+  HoursRequest request = requestOf(Transparent::opaque);
+  request.date = 2026y / std::chrono::June / 21;
+  for (const double latitude : {70.0, 80.0, 90.0})
+    for (const double longitude : {-75.3, 0.0, 15.6}) {
+      request.place = {Angle::degrees(latitude), Angle::degrees(longitude)};
+      ReceiverSet set;
+      set.receivers = {{Vec3(0.0), Vec3(0.0)}};
+      const auto table = sunHours(sceneOf({}), std::move(set), request);
+      ASSERT_TRUE(table);
+      EXPECT_EQ(stretchesText(*table, 0), "00:00:00-24:00:00") << latitude << ' ' << longitude;
+    }
+}
+
 }  // namespace
 }  // namespace umbrage::study
