@@ -166,13 +166,16 @@ bool touchQuad(void* context, std::uint32_t point, std::uint32_t quad, Coverage&
       0.05;  // the sine between a surface and the receiver's plane below which neither side is meant
   double above = glm::dot(unit, group.normals[point]);
   const double nothing = 1e-12 * group.hours.tree.reach;
-  if (std::abs(above) < kUpright) {
+  const bool upright = std::abs(above) < kUpright;
+  if (upright) {
     if (group.hours.tree.closed[quad] == 0) return group.normals[point] == Vec3(0.0) || std::abs(depth) <= nothing;
     above = 1.0;  // nobody stands inside who does not say so
   }
   group.inwards = group.inwards || above < 0.0;
-  // Seen from just above the surface.
-  const Vec3 eye = footOn(seen, unit, group.hours.contact) + unit * std::copysign(nothing, above);
+  // Seen from where the eye is, if that is on the right side by more than rounding; else from just above the surface.
+  const double rounding = 0.25 * group.hours.contact;
+  const bool stays = depth * above < 0.0 && std::abs(depth) > (upright ? nothing : rounding);
+  const Vec3 eye = stays ? Vec3(0.0) : footOn(seen, unit, rounding) + unit * std::copysign(nothing, above);
   for (Vec3& corner : seen.corner) corner -= eye;
   detail::Stretches dark{{group.leg.first, group.leg.last}};
   for (int k = 0; k < 4 && !dark.empty(); ++k) {

@@ -101,15 +101,23 @@ TEST(ExactHours, centimetresFromACornerFarFromTheOrigin) {
   hours_tests::Random random(17);
   std::vector<hours_tests::Placed> all;
   std::vector<Receiver> receivers;
-  for (int i = 0; i < 60; ++i) {
-    const Vec3 corner = two.meshes[0]->positions[static_cast<std::size_t>(i % 4)];
-    hours_tests::Placed p;
-    p.receiver.position = {corner.x + hours_tests::uniform(random, -0.03, 0.03),
-                           corner.y + hours_tests::uniform(random, -0.03, 0.03), 0.01};
-    p.receiver.normal = {0, 0, 1};
-    if (rays.meets(p.receiver.position, {0, 0, 1}, 0xffffffffu)) continue;
+  const auto add = [&](const Vec3& position) {
+    const hours_tests::Placed p{{position, {0, 0, 1}}};
+    if (rays.meets(position, {0, 0, 1}, 0xffffffffu)) return;
     all.push_back(p), receivers.push_back(p.receiver);
+  };
+  const Vec3 along(std::cos(0.28), std::sin(0.28), 0), across(-along.y, along.x, 0);
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 at = two.meshes[0]->positions[static_cast<std::size_t>(i % 4)], corner(at.x, at.y, 0.01);
+    add(corner + Vec3(hours_tests::uniform(random, -0.03, 0.03), hours_tests::uniform(random, -0.03, 0.03), 0));
+    // Before the wall by less than what counts as touching it.
+    const double x = i % 2 == 0 ? -1 : 1, y = i % 4 < 2 ? -1 : 1;
+    add(corner + x * hours_tests::uniform(random, 2e-5, 4e-4) * along -
+        y * hours_tests::uniform(random, 0.01, 0.2) * across);
+    add(corner + y * hours_tests::uniform(random, 2e-5, 4e-4) * across -
+        x * hours_tests::uniform(random, 0.01, 0.2) * along);
   }
+  EXPECT_GT(all.size(), 100u);
   for (const bool wide : {true, false}) {
     const SunCourse course = dayOf(2026y / std::chrono::July / 22);
     const SunHours lit = hoursAt(two, receivers, course, {.wide = wide});
