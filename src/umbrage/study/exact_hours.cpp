@@ -156,7 +156,7 @@ Vec3 footOn(const GroupContext::Seen& s, const Vec3& unit, double margin) {
   return foot;
 }
 
-bool touchQuad(void* context, std::uint32_t point, std::uint32_t quad, Coverage& covered) {
+bool touchQuad(void* context, std::uint32_t point, std::uint32_t quad, bool closed, Coverage& covered) {
   auto& group = *static_cast<GroupContext*>(context);
   GroupContext::Seen seen = group.see(point, quad);
   const Vec3 unit = glm::normalize(seen.area);
@@ -168,7 +168,7 @@ bool touchQuad(void* context, std::uint32_t point, std::uint32_t quad, Coverage&
   const double nothing = 1e-12 * group.hours.tree.reach;
   const bool upright = std::abs(above) < kUpright;
   if (upright) {
-    if (group.hours.tree.closed[quad] == 0) return group.normals[point] == Vec3(0.0) || std::abs(depth) <= nothing;
+    if (!closed) return group.normals[point] == Vec3(0.0) || std::abs(depth) <= nothing;
     above = 1.0;  // nobody stands inside who does not say so
   }
   group.inwards = group.inwards || above < 0.0;

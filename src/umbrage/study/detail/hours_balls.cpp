@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <span>
 
@@ -129,8 +130,8 @@ bool isWithin(const SolidSurface& surface, const Vec3& p) {
 // About the largest ball within that touches the surface at `from`: shrunk from one of `radius` until next to nothing is in it.
 std::optional<Ball> shrink(const SolidSurface& surface, const Vec3& from, const Vec3& inwards, double radius) {
   constexpr int kSteps = 24;
-  Ball largest{from, 0.0},
-      last{from, 0.0};  // among those that nearly fit; the neighbours of a coarse face cut a part off the ball
+  // The largest among those that nearly fit, since the neighbours of a coarse face cut a part off the ball.
+  Ball largest{from, 0.0}, last{from, 0.0};
   for (int i = 0; i < kSteps; ++i) {
     const Vec3 centre = from + radius * inwards, met = surface.nearest(centre);
     last = {centre, glm::distance(met, centre)};
@@ -141,7 +142,7 @@ std::optional<Ball> shrink(const SolidSurface& surface, const Vec3& from, const 
     if (!(ahead > 0.0) || !(smaller < radius)) break;
     radius = smaller;
   }
-  if (isWithin(surface, largest.centre)) return largest;
+  if (largest.radius > 0.0 && isWithin(surface, largest.centre)) return largest;
   if (isWithin(surface, last.centre)) return last;
   return std::nullopt;
 }
@@ -163,7 +164,7 @@ void addBalls(const scene::Surfaces& surfaces, std::span<const CasterQuad> quads
   };
   double whole = 0.0;
   for (const CasterQuad& q : quads) whole += 0.5 * glm::length(area(q)) * (q.corners[3] != q.corners[2] ? 2.0 : 1.0);
-  const double least = std::sqrt(kLeastShare * whole / double(quads.size()) / 3.1416);
+  const double least = std::sqrt(kLeastShare * whole / double(quads.size()) / std::numbers::pi);
 
   const std::size_t samples = std::min(quads.size() / kQuadsPerSample, kMostSamples), first = out.size();
   for (std::size_t i = 0; i < samples; ++i) {

@@ -127,7 +127,6 @@ class LeafMaker {
       corner[k] = Vec3(p);
     }
     out_.quads.push_back(quad);
-    out_.closed.push_back(caster.solid >= 0 ? 1 : 0);
     // Twice the area, of both triangles.
     const Vec3 area = glm::cross(corner[2] - corner[0], corner[3] - corner[0]) +
                       glm::cross(corner[1] - corner[0], corner[2] - corner[0]);

@@ -26,7 +26,6 @@ struct HoursTree {
   std::vector<TreeNode> nodes;
   std::vector<TreeLeaf> leaves;
   std::vector<TreeQuad> quads;
-  std::vector<std::uint8_t> closed;  ///< per quad: it belongs to a closed solid, and is seen from outside counter-clockwise
   std::int32_t root = 0;
   std::vector<TreeNode> ballNodes;  ///< of balls within the casters; empty where there are none
   std::vector<TreeBalls> balls;

@@ -178,7 +178,8 @@ inline void askLeaf(CoverJob& job, const TreeLeaf& leaf, const Sides& sides, std
   std::uint32_t near = sides.touchable == 0 ? 0u : bits(magnitude(depth) <= Lanes(job.contact)) & leaf.used;
   for (; near != 0; near &= near - 1) {
     const int i = lowestBit(near);
-    if (job.touch(job.context, point.index, leaf.quads + static_cast<std::uint32_t>(i), job.covered[k]))
+    const bool closed = (leaf.open >> i & 1u) == 0;
+    if (job.touch(job.context, point.index, leaf.quads + static_cast<std::uint32_t>(i), closed, job.covered[k]))
       left &= ~(1u << i);
   }
   while (left != 0) {

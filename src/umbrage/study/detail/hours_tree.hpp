@@ -104,8 +104,9 @@ struct CoverJob {
   /// which hours the sun is on the inner side (a gap when from > to). Returns false when it never is at one of them.
   bool (*refine)(void* context, std::uint32_t point, std::uint32_t quad, std::uint32_t lanes, std::uint32_t arc,
                  float first, float last, float* from, float* to);
-  /// A point very near the plane of a quad: returns true when it touches the quad, and then has added what that hides.
-  bool (*touch)(void* context, std::uint32_t point, std::uint32_t quad, Coverage& covered);
+  /// A point very near the plane of a quad (`closed`: of a closed solid): returns true when it touches the quad, and then has added what
+  /// that hides.
+  bool (*touch)(void* context, std::uint32_t point, std::uint32_t quad, bool closed, Coverage& covered);
 };
 
 /// Fills `covered` of each of the job's points with the hours at which the scene hides the sun. What is covered already stays so.
