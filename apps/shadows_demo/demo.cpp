@@ -73,7 +73,7 @@ Result<void> Demo::begin(const Options& options) {
 }
 
 std::string Demo::state() const {
-  const auto& settings = shadows_.settings();
+  const auto settings = shadows_.settings();
   const SoLight& first = lamps_[0];
   return fmt::format("shadows {} | {} | sensors {} | lights {} | light 1 {} {} % | ambient {} %", onOff(shadowed()),
                      nameOf(settings.method), onOff(sensed_), lamps_.listed(), onOff(first.on.getValue()),

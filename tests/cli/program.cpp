@@ -126,10 +126,4 @@ std::string CliTest::writeBox(const std::string& name, double height) const {
                          "\n-1 1 " + h + "\n4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
 }
 
-std::filesystem::path testData() {
-  const char* named = std::getenv("UMBRAGE_TEST_DATA");
-  const std::filesystem::path folder = named != nullptr ? named : UMBRAGE_SOURCE_DIR "/../shared/data";
-  return std::filesystem::is_directory(folder) ? folder : std::filesystem::path();
-}
-
 }  // namespace umbrage::cli_test

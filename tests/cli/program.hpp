@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/test_data.hpp"
+
 namespace umbrage::cli_test {
 
 /// How a run of the program ended.
@@ -49,7 +51,6 @@ class CliTest : public testing::Test {
   std::filesystem::path folder_;
 };
 
-/// The folder of public models, or empty.
-[[nodiscard]] std::filesystem::path testData();
+using support::testData;
 
 }  // namespace umbrage::cli_test

@@ -7,26 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "support/test_data.hpp"
+
 // Broken files through the manager: no worse than through Coin, and better where what is wrong can be told.
 namespace umbrage::coin::test {
 namespace {
 
 constexpr int kDied = -1;
 
-std::filesystem::path dataFolder() {
-  const char* given = std::getenv("UMBRAGE_TEST_DATA");
-  return std::filesystem::path(given != nullptr ? given : UMBRAGE_SOURCE_DIR "/../shared/data") / "malformed";
-}
-
-std::vector<std::filesystem::path> brokenFiles() {
-  std::vector<std::filesystem::path> files;
-  if (!std::filesystem::is_directory(dataFolder())) return files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(dataFolder()))
-    if (const auto extension = entry.path().extension(); extension == ".iv" || extension == ".wrl")
-      files.push_back(entry.path());
-  std::ranges::sort(files);
-  return files;
-}
+std::filesystem::path dataFolder() { return support::testData() / "malformed"; }
 
 /// The exit code of a process of its own, or kDied: a signal, or more than 10 seconds.
 int drawn(const std::filesystem::path& file, const char* how) {
@@ -37,7 +26,7 @@ int drawn(const std::filesystem::path& file, const char* how) {
 }
 
 TEST(Malformed, FilesThatCoinLivesThroughAreDrawnOrRefused) {
-  const auto files = brokenFiles();
+  const auto files = support::filesBelow(dataFolder(), {".iv", ".wrl"});
   if (files.empty()) GTEST_SKIP() << "no test data at " << dataFolder();
   std::size_t lived = 0, saved = 0;
   for (const auto& file : files) {

@@ -15,6 +15,7 @@
 #include "coin/scenes.hpp"
 #include "coin/stage.hpp"
 #include "coin/truth.hpp"
+#include "support/test_data.hpp"
 #include "umbrage/inventor/full_path.hpp"
 
 // The Inventor and VRML files of the test data that load, under one light and three, drawn by Coin with shadows.
@@ -24,21 +25,7 @@ namespace {
 // Of the pixels that see a surface, at most this share may be far from a true edge: the bound of all techniques (tests/conformance).
 constexpr double kWorstShare = 1e-5;
 
-std::filesystem::path dataFolder() {
-  const char* given = std::getenv("UMBRAGE_TEST_DATA");
-  const std::filesystem::path data = given != nullptr ? given : UMBRAGE_SOURCE_DIR "/../shared/data";
-  return data / "inventor";
-}
-
-std::vector<std::filesystem::path> modelFiles() {
-  std::vector<std::filesystem::path> files;
-  if (!std::filesystem::is_directory(dataFolder())) return files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(dataFolder()))
-    if (const auto extension = entry.path().extension(); extension == ".iv" || extension == ".wrl")
-      files.push_back(entry.path());
-  std::ranges::sort(files);
-  return files;
-}
+std::filesystem::path dataFolder() { return support::testData() / "inventor"; }
 
 SoSeparator* read(const std::filesystem::path& file) {
   SoInput input;
@@ -123,7 +110,7 @@ bool judgeModel(Stage& stage, SoSeparator* model, int lights, const std::filesys
 class Models : public testing::TestWithParam<int> {};
 
 TEST_P(Models, HaveTheShadowsOfRaysInCoinsOwnLight) {
-  const auto files = modelFiles();
+  const auto files = support::filesBelow(dataFolder(), {".iv", ".wrl"});
   if (files.empty()) GTEST_SKIP() << "no test data at " << dataFolder();
   const auto stage = Stage::make(320, 240);
   if (!stage) GTEST_SKIP() << "no OpenGL here";

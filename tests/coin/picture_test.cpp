@@ -1,7 +1,5 @@
 #include <Inventor/SoDB.h>
 #include <Inventor/SoInput.h>
-#include <Inventor/SoOutput.h>
-#include <Inventor/actions/SoWriteAction.h>
 #include <Inventor/nodes/SoPerspectiveCamera.h>
 #include <Inventor/nodes/SoTranslation.h>
 #include <gtest/gtest.h>
@@ -13,6 +11,7 @@
 #include "umbrage/coin/exact_shadow_group.hpp"
 #include "umbrage/gl/stencil_pixels.hpp"
 #include "umbrage/gl/stencil_window.hpp"
+#include "umbrage/inventor/written.hpp"
 
 namespace umbrage::coin::test {
 namespace {
@@ -293,39 +292,20 @@ TEST(Picture, StencilsLeaveWildHostsAlone) {
 TEST(Picture, LeavesTheGraphAlone) {
   STAGE_OR_SKIP(stage);
   const auto root = sceneOf(room("", kThreeLights, kSolids));
-  const auto text = [&] {
-    SoOutput output;
-    output.setBuffer(std::malloc(1 << 16), 1 << 16, std::realloc);
-    SoWriteAction write(&output);
-    write.apply(root.get());
-    void* buffer = nullptr;
-    std::size_t size = 0;
-    output.getBuffer(buffer, size);
-    std::string out(static_cast<const char*>(buffer), size);
-    std::free(buffer);
-    return out;
-  };
-  const std::string before = text();
+  const std::string before = inventor::written(root.get());
   const auto id = root->getNodeId();
   stage->draw(root.get());
   EXPECT_EQ(root->getNodeId(), id);
-  EXPECT_EQ(text(), before);
+  EXPECT_EQ(inventor::written(root.get()), before);
 }
 
 TEST(Picture, ComesBackFromAFile) {
   STAGE_OR_SKIP(stage);
   const auto root = sceneOf(room("method Z_FAIL transparentCasters OPAQUE volumeDepth 3", kThreeLights, kSolids));
-  SoOutput output;
-  output.setBuffer(std::malloc(1 << 16), 1 << 16, std::realloc);
-  SoWriteAction write(&output);
-  write.apply(root.get());
-  void* buffer = nullptr;
-  std::size_t size = 0;
-  output.getBuffer(buffer, size);
+  std::string file = inventor::written(root.get());
   SoInput input;
-  input.setBuffer(buffer, size);
+  input.setBuffer(file.data(), file.size());
   const auto again = hold(SoDB::readAll(&input));
-  std::free(buffer);
   auto* group = groupOf(again.get());
   ASSERT_NE(group, nullptr);
   EXPECT_EQ(group->method.getValue(), int(SoExactShadowGroup::Z_FAIL));

@@ -6,6 +6,7 @@
 
 #include "conformance/judge.hpp"
 #include "conformance/models.hpp"
+#include "support/test_data.hpp"
 
 namespace umbrage::conformance {
 namespace {
@@ -14,11 +15,6 @@ namespace {
 constexpr std::size_t kFilesPerFolder = 12;
 // Of the pixels that see a surface, at most this share may be far from a true edge.
 constexpr double kWorstShare = 1e-5;
-
-std::filesystem::path dataFolder() {
-  const char* given = std::getenv("UMBRAGE_TEST_DATA");
-  return given != nullptr ? std::filesystem::path(given) : std::filesystem::path(UMBRAGE_SOURCE_DIR) / "../shared/data";
-}
 
 std::vector<std::filesystem::path> spread(const std::vector<std::filesystem::path>& files) {
   std::vector<std::filesystem::path> some;
@@ -50,7 +46,7 @@ void judgeModel(const shadow::TechniqueEntry& entry, const Case& c,
 class RealModels : public testing::TestWithParam<std::string> {};
 
 TEST_P(RealModels, DifferFromTheTruthInAtMostOnePixelOf100000) {
-  const auto folder = dataFolder() / GetParam();
+  const auto folder = support::testData() / GetParam();
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no test data at " << folder;
   std::size_t loaded = 0;
   for (const auto& path : spread(modelFiles(folder))) {

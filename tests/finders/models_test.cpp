@@ -4,6 +4,7 @@
 
 #include "conformance/models.hpp"
 #include "finders/agreement.hpp"
+#include "support/test_data.hpp"
 
 namespace umbrage::finders {
 namespace {
@@ -12,15 +13,10 @@ namespace {
 constexpr std::size_t kFilesPerFolder = 8;
 constexpr std::size_t kLargestFile = 4u << 20u;
 
-std::filesystem::path dataFolder() {
-  const char* given = std::getenv("UMBRAGE_TEST_DATA");
-  return given != nullptr ? std::filesystem::path(given) : std::filesystem::path(UMBRAGE_SOURCE_DIR) / "../shared/data";
-}
-
 class RealSilhouettes : public testing::TestWithParam<std::string> {};
 
 TEST_P(RealSilhouettes, AreTheSameByEveryFinder) {
-  const auto folder = dataFolder() / GetParam();
+  const auto folder = support::testData() / GetParam();
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no test data at " << folder;
   std::size_t loaded = 0;
   const auto files = conformance::modelFiles(folder);

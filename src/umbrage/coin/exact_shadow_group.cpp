@@ -47,6 +47,13 @@ const Work& SoExactShadowGroup::work() const { return engine_->work(); }
 const ShadowReport& SoExactShadowGroup::report() const { return engine_->report(); }
 const std::optional<Error>& SoExactShadowGroup::lastError() const { return engine_->error(); }
 
+// The fields' values are those of the settings.
+static_assert(int(Method::automatic) == SoExactShadowGroup::AUTOMATIC &&
+              int(Method::zPass) == SoExactShadowGroup::Z_PASS && int(Method::zFail) == SoExactShadowGroup::Z_FAIL &&
+              int(Method::rayTraced) == SoExactShadowGroup::RAY_TRACED);
+static_assert(int(TransparentCasters::none) == SoExactShadowGroup::NONE &&
+              int(TransparentCasters::opaque) == SoExactShadowGroup::OPAQUE);
+
 Settings SoExactShadowGroup::settings() const {
   Settings settings;
   settings.method = static_cast<Method>(method.getValue());

@@ -65,12 +65,12 @@ class SoExactShadowGroup : public SoSeparator {
 
   /// For the other files of this room.
   [[nodiscard]] detail::Engine& engine() { return *engine_; }
+  [[nodiscard]] Settings settings() const;  ///< what the fields say
 
  protected:
   ~SoExactShadowGroup() override;
 
  private:
-  [[nodiscard]] Settings settings() const;
   std::unique_ptr<detail::Engine> engine_;
 };
 

@@ -1,13 +1,10 @@
 #include "umbrage/coin/shadow_manager.hpp"
 
-#include <Inventor/SoOutput.h>
 #include <Inventor/actions/SoSearchAction.h>
-#include <Inventor/actions/SoWriteAction.h>
 #include <Inventor/nodes/SoEnvironment.h>
 #include <Inventor/nodes/SoSeparator.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "umbrage/base/check.hpp"
 #include "umbrage/base/file.hpp"
@@ -16,6 +13,7 @@
 #include "umbrage/coin/exact_shadow_group.hpp"
 #include "umbrage/inventor/check.hpp"
 #include "umbrage/inventor/full_path.hpp"
+#include "umbrage/inventor/written.hpp"
 
 namespace umbrage::coin {
 namespace {
@@ -57,24 +55,9 @@ Result<void> remove(std::vector<NodeRef>& nodes, const SoNode* node, const char*
   return {};
 }
 
-/// What Coin writes, as text.
-std::string written(SoNode* node) {
-  SoOutput output;
-  output.setBuffer(std::malloc(1 << 16), 1 << 16, std::realloc);
-  SoWriteAction action(&output);
-  action.apply(node);
-  void* buffer = nullptr;
-  std::size_t size = 0;
-  output.getBuffer(buffer, size);
-  std::string text(static_cast<const char*>(buffer), size);
-  std::free(buffer);
-  return text;
-}
-
 }  // namespace
 
 struct ShadowManager::State {
-  Settings settings;
   NodeRef sceneRoot, root, environment;
 
   [[nodiscard]] SoExactShadowGroup& group() const { return static_cast<SoExactShadowGroup&>(*root); }
@@ -87,7 +70,7 @@ struct ShadowManager::State {
 Result<SoSeparator*> ShadowManager::State::volumes() const {
   SoPath* down = new SoPath(root.get());
   down->ref();
-  SoSeparator* made = engine().volumesOf(*down, settings);
+  SoSeparator* made = engine().volumesOf(*down, group().settings());
   down->unref();
   if (made == nullptr)
     return fail(ErrorCode::usage, "there are no volumes: no light that is on, or no object that casts");
@@ -160,29 +143,23 @@ Result<void> ShadowManager::removeObject(const SoPath* object) {
   return {};
 }
 
-void ShadowManager::setMethod(Method method) {
-  state_->settings.method = method;
-  state_->group().method = static_cast<int>(method);
-}
+void ShadowManager::setMethod(Method method) { state_->group().method = static_cast<int>(method); }
 
 void ShadowManager::setSceneType(SceneType type) {
-  state_->settings.sceneType = type;
   state_->group().isActive = type != SceneType::withoutShadows;
   state_->group().showVolumes = type == SceneType::visibleVolumes;
 }
 
 void ShadowManager::setTransparentCasters(TransparentCasters casters) {
-  state_->settings.transparentCasters = casters;
   state_->group().transparentCasters = static_cast<int>(casters);
 }
 
 void ShadowManager::setVolumeDepth(std::optional<double> depth) {
   UMBRAGE_CHECK(!depth || *depth > 0.0, "depth of volumes");
-  state_->settings.volumeDepth = depth;
   state_->group().volumeDepth = float(depth.value_or(0.0));
 }
 
-const Settings& ShadowManager::settings() const { return state_->settings; }
+Settings ShadowManager::settings() const { return state_->group().settings(); }
 
 void ShadowManager::recompute(SoNode* object) {
   state_->engine().extractor().forget(object);
@@ -205,13 +182,13 @@ Result<void> ShadowManager::exportScene(const std::filesystem::path& file) {
   else
     both->addChild(scene);
   both->addChild(*volumes);
-  return writeFile(file, written(both));
+  return writeFile(file, inventor::written(both));
 }
 
 Result<void> ShadowManager::exportVolumes(const std::filesystem::path& file) {
   const auto volumes = state_->volumes();
   if (!volumes) return tl::unexpected(volumes.error());
-  return writeFile(file, written(*volumes));
+  return writeFile(file, inventor::written(*volumes));
 }
 
 const Work& ShadowManager::work() const { return state_->group().work(); }

@@ -61,7 +61,7 @@ class ShadowManager {
   void setTransparentCasters(TransparentCasters casters);
   /// Of visible and exported volumes: scene units from the caster, above 0; none: to infinity.
   void setVolumeDepth(std::optional<double> depth);
-  [[nodiscard]] const Settings& settings() const;
+  [[nodiscard]] Settings settings() const;
 
   /// Has the triangles of every shape in or below `object` asked of Coin anew with the next picture: for shapes that change without telling
   /// Coin (fields changed with notification off, own nodes that draw from outside data).

@@ -88,7 +88,7 @@ void compare(const scene::Scene& scene, const Entry& entry) {
 }
 
 TEST(Collection, triangleCountsAndTopologyAreThoseOfTheManifest) {
-  const fs::path data = test::collection();
+  const fs::path data = test::testData();
   if (data.empty()) GTEST_SKIP() << "no test data: set UMBRAGE_TEST_DATA";
   const auto entries = manifest(data);
   ASSERT_GT(entries.size(), 300U);

@@ -242,7 +242,7 @@ TEST(GeoJson, readsOtherFormsAndNames) {
 }
 
 TEST(GeoJson, kawasaki) {
-  const auto data = test::collection();
+  const auto data = test::testData();
   if (data.empty()) GTEST_SKIP() << "no test data: set UMBRAGE_TEST_DATA";
   const auto scene = loadScene(data / "city/kawasaki_buildings.geojson");
   ASSERT_TRUE(scene) << scene.error().text();
@@ -253,7 +253,7 @@ TEST(GeoJson, kawasaki) {
 }
 
 TEST(GeoJson, floorsOfBrno) {
-  const auto data = test::collection();
+  const auto data = test::testData();
   if (data.empty()) GTEST_SKIP() << "no test data: set UMBRAGE_TEST_DATA";
   const auto scene = loadScene(data / "city/brno_buildings.geojson");
   ASSERT_TRUE(scene) << scene.error().text();

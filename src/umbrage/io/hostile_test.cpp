@@ -40,7 +40,7 @@ std::set<fs::path> filesBelow(const fs::path& folder) {
 bool hasChildren() { return ::waitpid(-1, nullptr, WNOHANG) >= 0; }
 
 TEST(Hostile, everyMalformedFileIsASceneOrAnError) {
-  const fs::path data = test::collection();
+  const fs::path data = test::testData();
   if (data.empty()) GTEST_SKIP() << "no test data: set UMBRAGE_TEST_DATA";
   const fs::path folder = data / "malformed";
   const auto before = filesBelow(folder);

@@ -323,7 +323,7 @@ TEST(X3d, boxKeepsItsAxes) {
 
 // The same house stands in the collection as CityJSON, whose coordinates are known without assimp.
 TEST(Ifc, keepsItsAxesAndMetres) {
-  const auto data = test::collection();
+  const auto data = test::testData();
   if (data.empty()) GTEST_SKIP() << "no test data: set UMBRAGE_TEST_DATA";
   const auto ifc = loaded(data / "architecture/AC14-FZK-Haus.ifc");
   EXPECT_EQ(ifc.up, scene::UpAxis::z);

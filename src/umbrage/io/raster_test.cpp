@@ -105,7 +105,7 @@ TEST(Raster, tilesKeepWhatReachesThem) {
 }
 
 TEST(Raster, geoTiffOfGothenburg) {
-  const auto data = test::collection();
+  const auto data = test::testData();
   if (data.empty()) GTEST_SKIP() << "no test data: set UMBRAGE_TEST_DATA";
   const auto file = data / "city/goteborg/DSM_KRbig.tif";
   const auto scene = loadScene(file);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "support/test_data.hpp"
 #include "umbrage/mesh/mesh_report.hpp"
 #include "umbrage/mesh/weld.hpp"
 #include "umbrage/scene/scene.hpp"
@@ -15,11 +16,7 @@
 namespace umbrage::io::test {
 
 /// The collection of real and hostile files, or an empty path.
-inline std::filesystem::path collection() {
-  const char* named = std::getenv("UMBRAGE_TEST_DATA");
-  const std::filesystem::path folder = named != nullptr ? named : UMBRAGE_SOURCE_DIR "/../shared/data";
-  return std::filesystem::is_directory(folder) ? folder : std::filesystem::path();
-}
+using support::testData;
 
 /// A folder of its own that goes with the test.
 class Folder {
