@@ -83,7 +83,8 @@ struct GroupContext {
   const SunLeg& leg;
   const Vec3* positions;  // relative to the origin, by number in the group
   const Vec3* normals;    // unit or 0
-  bool inwards = false;   // a point touches a closed solid and faces into it
+  bool bothSides =
+      false;  // a point touches a closed solid, and not with its face before it: the faces towards it do not tell all
 
   struct Seen {
     Vec3 corner[4];
@@ -141,19 +142,21 @@ detail::Stretches overlap(const detail::Stretches& a, const detail::Stretches& b
 }
 
 // The foot of the eye on the quad's plane; where it is as near to a corner or an edge as may be rounding, that corner or the edge. So each of
-// the faces that meet there hides what lies on its own side, and no more and no less.
+// the faces that meet there hides what lies on its own side, and no more and no less. Corners may lie off the plane by rounding, so nearness
+// is measured along it.
 Vec3 footOn(const GroupContext::Seen& s, const Vec3& unit, double margin) {
-  const Vec3 foot = unit * glm::dot(unit, s.corner[0]);
+  const auto flat = [&](const Vec3& v) { return v - unit * glm::dot(unit, v); };
   for (const Vec3& corner : s.corner)
-    if (glm::distance(corner, foot) <= margin) return corner;
+    if (glm::length(flat(corner)) <= margin) return corner;
   for (int k = 0; k < 4; ++k) {
     const Vec3 &a = s.corner[k], edge = s.corner[(k + 1) & 3] - a;
-    const double length2 = glm::dot(edge, edge);
+    const Vec3 from = flat(a), along = flat(edge);
+    const double length2 = glm::dot(along, along);
     if (!(length2 > 0.0)) continue;
-    const Vec3 onEdge = a + (glm::dot(foot - a, edge) / length2) * edge;
-    if (glm::distance(onEdge, foot) <= margin) return onEdge;
+    const Vec3 onEdge = a - (glm::dot(from, along) / length2) * edge;
+    if (glm::length(flat(onEdge)) <= margin) return onEdge;
   }
-  return foot;
+  return unit * glm::dot(unit, s.corner[0]);
 }
 
 bool touchQuad(void* context, std::uint32_t point, std::uint32_t quad, bool closed, Coverage& covered) {
@@ -162,20 +165,21 @@ bool touchQuad(void* context, std::uint32_t point, std::uint32_t quad, bool clos
   const Vec3 unit = glm::normalize(seen.area);
   const double depth = glm::dot(unit, seen.corner[0]);
   if (std::abs(depth) > group.hours.contact || !standsOn(seen, unit, group.hours.contact)) return false;
-  constexpr double kUpright =
-      0.05;  // the sine between a surface and the receiver's plane below which neither side is meant
-  double above = glm::dot(unit, group.normals[point]);
-  const double nothing = 1e-12 * group.hours.tree.reach;
-  const bool upright = std::abs(above) < kUpright;
-  if (upright) {
-    if (!closed) return group.normals[point] == Vec3(0.0) || std::abs(depth) <= nothing;
-    above = 1.0;  // nobody stands inside who does not say so
-  }
-  group.inwards = group.inwards || above < 0.0;
-  // Seen from where the eye is, if that is on the right side by more than rounding; else from just above the surface.
+  // The sine between the surface and the way the receiver faces below which that way tells no side: of a closed solid, of which nobody is inside
+  // who does not say so, and of a sheet.
+  constexpr double kUpright = 0.05, kEdgeOn = 1e-3;
+  const double facing = glm::dot(unit, group.normals[point]), nothing = 1e-11 * group.hours.tree.reach;
+  if (!closed && std::abs(facing) < kEdgeOn) return group.normals[point] == Vec3(0.0) || std::abs(depth) <= nothing;
+  const bool upright = closed && std::abs(facing) < kUpright;
+  const double above = upright ? 1.0 : facing;
+  group.bothSides = group.bothSides || upright || (closed && above < 0.0);
+  // Seen from where the eye is, if that is on the right side by more than rounding; else from just off the surface the way the receiver faces, so
+  // that all faces that meet in a point are seen from one place: between two that meet at a sharp angle nothing is missed then.
   const double rounding = 0.25 * group.hours.contact;
-  const bool stays = depth * above < 0.0 && std::abs(depth) > (upright ? nothing : rounding);
-  const Vec3 eye = stays ? Vec3(0.0) : footOn(seen, unit, rounding) + unit * std::copysign(nothing, above);
+  const Vec3 foot = footOn(seen, unit, rounding);
+  const double below = glm::dot(unit, foot);  // how far the eye is below the surface there
+  const bool stays = below * above < 0.0 && (upright ? std::abs(below) > nothing : glm::length(foot) > rounding);
+  const Vec3 eye = stays ? Vec3(0.0) : foot + nothing * (upright ? unit : group.normals[point]);
   for (Vec3& corner : seen.corner) corner -= eye;
   detail::Stretches dark{{group.leg.first, group.leg.last}};
   for (int k = 0; k < 4 && !dark.empty(); ++k) {
@@ -303,7 +307,7 @@ class Worker {
     // Who is outside is hidden by the faces towards him alone. Few are inside, so all are taken to be outside first.
     job.inside = false;
     traverse(job, leg);
-    if (job.withinCount > 0 && (context.inwards || anyInside(job, leg))) {
+    if (job.withinCount > 0 && (context.bothSides || anyInside(job, leg))) {
       job.inside = true;
       traverse(job, leg);
     }

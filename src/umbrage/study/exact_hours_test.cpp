@@ -253,6 +253,32 @@ TEST(ExactHours, onRidgesAndCorners) {
   }
 }
 
+TEST(ExactHours, inASharpValley) {
+  // A wall to the north with a groove of 77 degrees along it; at the groove's bottom, as just before it. The way from there to a sun in the south leads
+  // through the wall and meets neither of the groove's faces.
+  for (const double turn : {0.0, 0.4, -0.7}) {
+    const Vec3 along(std::cos(turn), std::sin(turn), 0), north(-along.y, along.x, 0), up(0, 0, 1);
+    mesh::Mesh m;
+    const Vec2 profile[] = {{6, 0}, {14, 0}, {14, 6}, {10.1, 1}, {6, 6}};  // height, north
+    for (const double side : {-6.0, 6.0})
+      for (const Vec2& p : profile) m.positions.push_back(side * along + p.y * north + p.x * up);
+    m.triangles = {{0, 1, 3}, {1, 2, 3}, {0, 3, 4}, {5, 8, 6}, {6, 8, 7}, {5, 9, 8}};
+    for (std::uint32_t i = 0; i < 5; ++i) {
+      const std::uint32_t k = (i + 1) % 5;
+      m.triangles.push_back({i, i + 5, k});
+      m.triangles.push_back({k, i + 5, k + 5});
+    }
+    std::vector<Receiver> at, before;
+    for (int i = 1; i < 12; ++i) {
+      const Vec3 p = m.positions[3] + (m.positions[8] - m.positions[3]) * (i / 12.0);
+      for (const Vec3& normal : {Vec3(0.0), north + 0.4 * up, along})
+        at.push_back({p, normal}), before.push_back({p + 1e-5 * north, normal});
+    }
+    for (const auto date : {2026y / std::chrono::June / 21, 2026y / std::chrono::December / 21})
+      expectSame(hoursAt(sceneOf(m), at, dayOf(date)), hoursAt(sceneOf(m), before, dayOf(date)), 2.0);
+  }
+}
+
 TEST(ExactHours, onTheCornersOfASmoothSolid) {
   // As just before them.
   const mesh::Mesh m = hours_tests::ring(20, 6, 25, 60, 24);
