@@ -20,9 +20,7 @@ Result<study::PeriodStep> stepAt(std::chrono::milliseconds at, const PlaceOption
 }
 
 std::string offsetText(const PlaceOptions& when, const sun::Place& place, sun::Instant instant) {
-  const auto reading = sun::clockAt(when.zone, place, instant);
-  const std::string offset = "UTC" + sun::offsetText(reading.offset);
-  return reading.abbreviation.empty() ? offset : offset + " (" + reading.abbreviation + ")";
+  return sun::offsetText(sun::clockAt(when.zone, place, instant));
 }
 
 Result<study::PeriodSteps> singleMoments(const MomentOptions& options, const PlaceOptions& when,

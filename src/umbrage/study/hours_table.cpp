@@ -111,12 +111,7 @@ double sampledHours(std::span<const TimeSpan> lit, const std::vector<Pane>& pane
 }
 
 std::string clockText(const HoursRequest& r, const std::vector<TimeSpan>& days) {
-  const auto offset = [&](sun::Instant t) {
-    const auto reading = sun::clockAt(r.zone, r.place, t);
-    const bool lettered =
-        !reading.abbreviation.empty() && std::isalpha(static_cast<unsigned char>(reading.abbreviation[0])) != 0;
-    return "UTC" + sun::offsetText(reading.offset) + (lettered ? " (" + reading.abbreviation + ")" : "");
-  };
+  const auto offset = [&](sun::Instant t) { return sun::offsetText(sun::clockAt(r.zone, r.place, t)); };
   std::vector<std::string> all;  // in the order of the days, each once: a year begins and ends in winter
   for (const TimeSpan& day : days)
     for (const sun::Instant t : {day.from, day.to - milliseconds(1)})

@@ -49,11 +49,7 @@ void share(std::vector<PeriodStep>& steps, sun::Instant from, sun::Instant to) {
 std::string offsetOf(const sun::ClockReading& reading, const sun::Zone& zone) {
   if (zone.kind == sun::Zone::Kind::solar)
     return "hour angle 0 at 12:00; UTC" + sun::offsetText(reading.offset) + " at first";
-  const std::string offset = "UTC" + sun::offsetText(reading.offset);
-  // Zones without letters of their own are abbreviated by their offset.
-  const bool lettered =
-      !reading.abbreviation.empty() && reading.abbreviation[0] != '+' && reading.abbreviation[0] != '-';
-  return lettered ? offset + " (" + reading.abbreviation + ")" : offset;
+  return sun::offsetText(reading);
 }
 
 }  // namespace

@@ -263,4 +263,11 @@ std::string offsetText(seconds offset) {
   return total % 60 == 0 ? text : text + fmt::format(":{:02}", total % 60);
 }
 
+std::string offsetText(const ClockReading& reading) {
+  const std::string& letters = reading.abbreviation;
+  // Zones without letters of their own are abbreviated by their offset.
+  const bool lettered = !letters.empty() && letters[0] != '+' && letters[0] != '-';
+  return "UTC" + offsetText(reading.offset) + (lettered ? " (" + letters + ")" : "");
+}
+
 }  // namespace umbrage::sun

@@ -76,5 +76,7 @@ inline constexpr int kLastYear = 2100;
 [[nodiscard]] std::string timeText(std::chrono::milliseconds time);
 /// "+05:30".
 [[nodiscard]] std::string offsetText(std::chrono::seconds offset);
+/// "UTC+02:00 (CEST)"; zones without letters of their own have none here.
+[[nodiscard]] std::string offsetText(const ClockReading& reading);
 
 }  // namespace umbrage::sun

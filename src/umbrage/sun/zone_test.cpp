@@ -16,9 +16,7 @@ const Place kVienna{Angle::degrees(48.2), Angle::degrees(16.37)};
 Instant instantAt(const char* zone, const char* date, const char* time, const Place& place = kVienna) {
   return instantOf(*parseZone(zone), place, {*parseDate(date), *parseTime(time)})->instant;
 }
-Instant utc(const char* date, const char* time) {
-  return sys_days(*parseDate(date)) + *parseTime(time);
-}
+Instant utc(const char* date, const char* time) { return sys_days(*parseDate(date)) + *parseTime(time); }
 
 TEST(Zones, AreNamedFixedOrSolar) {
   EXPECT_EQ(parseZone("Europe/Vienna")->kind, Zone::Kind::named);
@@ -149,6 +147,9 @@ TEST(Texts, AreShort) {
   EXPECT_EQ(timeText(9h + 5min + 7s), "09:05:07");
   EXPECT_EQ(timeText(24h), "24:00");
   EXPECT_EQ(offsetText(-(3h + 30min)), "-03:30");
+  EXPECT_EQ(offsetText(ClockReading{{}, 2h, "CEST"}), "UTC+02:00 (CEST)");
+  EXPECT_EQ(offsetText(ClockReading{{}, 5h + 30min, "+0530"}), "UTC+05:30");
+  EXPECT_EQ(offsetText(ClockReading{{}, 1h, ""}), "UTC+01:00");
   EXPECT_EQ(dateText(*parseDate("2026-09-18")), "2026-09-18");
 }
 
