@@ -28,9 +28,9 @@ struct StagedScene {
 /// `city_street` and `city_lamp` (from the air again, with a lamp 14 m above a street, below the roofs).
 [[nodiscard]] StagedScene city(int boxes = 100);
 
-/// A torus knot with grooves, 64,800 triangles of 32,400 corners: curved, and everywhere near its own shadow; shot `grooved_knot`.
-/// Its corners are few enough for programs that number them in 16 bits.
-[[nodiscard]] StagedScene groovedKnot();
+/// A torus knot with grooves, twice `columns` times `rows` triangles (64,800, of so few corners that 16 bits number them): curved, and everywhere near
+/// its own shadow; shot `grooved_knot`.
+[[nodiscard]] StagedScene groovedKnot(std::uint32_t columns = 600, std::uint32_t rows = 54);
 
 /// All of them.
 [[nodiscard]] std::vector<StagedScene> stagedScenes();

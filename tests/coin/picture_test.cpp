@@ -201,6 +201,41 @@ TEST(Picture, FewLightsOfASharedNodeAreToldApart) {
   EXPECT_EQ(group->report().lights.size(), 1u);
 }
 
+std::pair<std::string, std::string> floorAndSolids() {
+  const std::size_t ball = kSolids.find("DEF BALL");
+  return {kSolids.substr(0, ball), kSolids.substr(ball)};
+}
+
+/// Pixels that shadows change.
+std::size_t changed(Stage& stage, const std::string& shapes, const std::string& name) {
+  const auto root = sceneOf(room("", kThreeLights, shapes));
+  const auto picture = stage.draw(root.get());
+  save(picture, "coin_" + name);
+  groupOf(root.get())->isActive = FALSE;
+  const auto lit = stage.draw(root.get());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < lit.size(); ++i) count += picture.pixels()[i] != lit.pixels()[i];
+  return count;
+}
+
+TEST(Picture, ShowsShadowsOnlyOnWhatIsShadowed) {
+  STAGE_OR_SKIP(stage);
+  const auto [floor, solids] = floorAndSolids();
+  const std::string bright = "ShadowStyle { style CASTS_SHADOW }\n", usual = "ShadowStyle { }\n";
+  EXPECT_EQ(changed(*stage, bright + kSolids, "bright"), 0u);
+  const std::size_t onFloor = changed(*stage, usual + floor + bright + solids, "bright_solids");
+  const std::size_t onSolids = changed(*stage, bright + floor + usual + solids, "bright_floor");
+  EXPECT_GT(onFloor, 1000u);
+  EXPECT_GT(onSolids, 300u);
+  EXPECT_EQ(changed(*stage, kSolids, "all_shadowed"), onFloor + onSolids);
+}
+
+TEST(Picture, CastsNothingWithAStyleThatDoesNotCast) {
+  STAGE_OR_SKIP(stage);
+  const auto [floor, solids] = floorAndSolids();
+  EXPECT_EQ(changed(*stage, floor + "ShadowStyle { style NO_SHADOWING }\n" + solids, "casts_nothing"), 0u);
+}
+
 TEST(Picture, LightsThatAreOffAreNone) {
   STAGE_OR_SKIP(stage);
   const auto root =

@@ -1,8 +1,10 @@
 #include "umbrage/coin/exact_shadow_group.hpp"
 
+#include <Inventor/actions/SoCallbackAction.h>
 #include <Inventor/actions/SoGLRenderAction.h>
 #include <Inventor/actions/SoGetBoundingBoxAction.h>
 #include <Inventor/actions/SoGetMatrixAction.h>
+#include <Inventor/annex/FXViz/elements/SoShadowStyleElement.h>
 #include <Inventor/annex/FXViz/nodes/SoShadowGroup.h>
 #include <Inventor/misc/SoState.h>
 
@@ -14,7 +16,8 @@ SO_NODE_SOURCE(SoExactShadowGroup);
 
 void init() {
   if (SoExactShadowGroup::getClassTypeId() != SoType::badType()) return;
-  SoShadowGroup::init();  // for SoShadowStyle, which says what casts
+  SoShadowGroup::init();                              // for SoShadowStyle, which says what casts
+  SO_ENABLE(SoCallbackAction, SoShadowStyleElement);  // which Coin knows only while it draws
   SoExactShadowGroup::initClass();
 }
 

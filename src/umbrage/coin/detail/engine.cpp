@@ -76,21 +76,27 @@ std::vector<Vec4> placesOf(const std::vector<PlacedLight>& lights) {
   return places;
 }
 
-// Per triangle the lights that may light it; empty where all are before all shapes.
+// The lights whose shadows a shape shows, as bits.
+std::uint64_t shadowsOn(const Receiver& receiver, const std::vector<PlacedLight>& lights) {
+  std::uint64_t on = 0;
+  for (std::size_t k = 0; k < lights.size() && receiver.shadowed; ++k) {
+    const bool told = lights[k].node->isOfType(SoLight::getClassTypeId()) != FALSE;
+    const bool shines = !told || std::ranges::find(receiver.lights, lights[k].node) != receiver.lights.end();
+    on |= std::uint64_t{shines} << k;
+  }
+  return on;
+}
+
+// Per triangle the lights that may light it, and whose shadows it shows; empty where all are before all shapes.
 std::vector<std::uint64_t> shiningOn(const Scan& scan, const World& world) {
   std::vector<std::uint64_t> on;
   const std::size_t lights = scan.lights.size();
   if (lights == 0 || world.geometry == nullptr) return on;
-  std::vector<std::uint64_t> onShape(scan.shapes.size(), 0);
+  std::vector<std::uint64_t> onShape;
   std::uint64_t common = ~std::uint64_t{0};
-  for (std::size_t i = 0; i < scan.shapes.size(); ++i) {
-    for (std::size_t k = 0; k < lights; ++k) {
-      const SoNode* node = scan.lights[k].node;
-      const bool told = node->isOfType(SoLight::getClassTypeId()) != FALSE;
-      const bool shines = !told || std::ranges::find(scan.shining[i], node) != scan.shining[i].end();
-      onShape[i] |= std::uint64_t{shines} << k;
-    }
-    common &= onShape[i];
+  for (const Receiver& receiver : scan.receivers) {
+    onShape.push_back(shadowsOn(receiver, scan.lights));
+    common &= onShape.back();
   }
   if (common == ~std::uint64_t{0} >> (kMostLights - lights)) return on;
   for (const std::uint32_t instance : world.geometry->surfaces.instances)

@@ -5,6 +5,7 @@
 #include <Inventor/VRMLnodes/SoVRMLLight.h>
 #include <Inventor/actions/SoCallbackAction.h>
 #include <Inventor/annex/FXViz/elements/SoShadowStyleElement.h>
+#include <Inventor/annex/FXViz/nodes/SoShadowStyle.h>
 #include <Inventor/caches/SoCache.h>
 #include <Inventor/elements/SoCacheElement.h>
 #include <Inventor/elements/SoLazyElement.h>
@@ -166,6 +167,12 @@ Scan Extractor::Traversal::run() {
   };
   action.addPreCallback(SoShape::getClassTypeId(), enterShape, this);
   action.addPostCallback(SoShape::getClassTypeId(), leaveShape, this);
+  const auto style = [](void*, SoCallbackAction* a, const SoNode* n) {
+    const auto* node = static_cast<const SoShadowStyle*>(n);
+    SoShadowStyleElement::set(a->getState(), const_cast<SoNode*>(n), node->style.getValue());
+    return SoCallbackAction::CONTINUE;
+  };
+  action.addPreCallback(SoShadowStyle::getClassTypeId(), style, nullptr);
   action.addPreCallback(SoLight::getClassTypeId(), light, this);
   action.addPreCallback(SoVRMLLight::getClassTypeId(), light, this);
   action.addTriangleCallback(SoShape::getClassTypeId(), triangle, this);
@@ -235,10 +242,11 @@ void Extractor::Traversal::place(SoCallbackAction* action, std::shared_ptr<const
   if (triangles->opaque == nullptr && triangles->veiled == nullptr) return;
   SoState* state = action->getState();
   const bool styled = state->isElementEnabled(SoShadowStyleElement::getClassStackIndex()) != FALSE;
-  const bool style = !styled || (SoShadowStyleElement::get(state) & SoShadowStyleElement::CASTS_SHADOW) != 0;
-  scan_.shining.push_back(lightsAt(state));
-  scan_.shapes.push_back({std::move(triangles), matrixOf(action->getModelMatrix()),
-                          style && request_.registry->casts(*action->getCurPath())});
+  const int style = styled ? SoShadowStyleElement::get(state) : SoShadowStyleElement::CASTS_SHADOW_AND_SHADOWED;
+  scan_.receivers.push_back({(style & SoShadowStyleElement::SHADOWED) != 0, lightsAt(state)});
+  scan_.shapes.push_back(
+      {std::move(triangles), matrixOf(action->getModelMatrix()),
+       (style & SoShadowStyleElement::CASTS_SHADOW) != 0 && request_.registry->casts(*action->getCurPath())});
 }
 
 float Extractor::Traversal::transparencyAt(SoState* state, int index) const {

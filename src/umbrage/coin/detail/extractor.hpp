@@ -29,6 +29,12 @@ struct PlacedShape {
   friend bool operator==(const PlacedShape&, const PlacedShape&) = default;
 };
 
+/// What a shape can lose to shadows.
+struct Receiver {
+  bool shadowed = true;               ///< false: it is drawn in full light, as its SoShadowStyle says
+  std::vector<const SoNode*> lights;  ///< those before it, which alone can light it
+};
+
 struct PlacedLight {
   SoNode* node = nullptr;
   scene::Light light;  ///< in world coordinates
@@ -42,12 +48,12 @@ struct Sight {
 
 /// A scene graph at one moment.
 struct Scan {
-  std::vector<PlacedShape> shapes;                  ///< those with triangles, in the order of the graph
-  std::vector<std::vector<const SoNode*>> shining;  ///< per shape: light nodes before it, which alone can light it
-  std::vector<PlacedLight> lights;                  ///< those that shine and cast
-  std::vector<SoNode*> manifold;                    ///< lights that stand at several places, which are not in `lights`
-  std::optional<Sight> sight;                       ///< of the first shape; none without a camera before it
-  std::size_t broken = 0;                           ///< shapes left out, since they name points that they do not have
+  std::vector<PlacedShape> shapes;  ///< those with triangles, in the order of the graph
+  std::vector<Receiver> receivers;  ///< per shape
+  std::vector<PlacedLight> lights;  ///< those that shine and cast
+  std::vector<SoNode*> manifold;    ///< lights that stand at several places, which are not in `lights`
+  std::optional<Sight> sight;       ///< of the first shape; none without a camera before it
+  std::size_t broken = 0;           ///< shapes left out, since they name points that they do not have
 };
 
 struct ScanRequest {
