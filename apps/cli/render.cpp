@@ -59,8 +59,8 @@ std::vector<Output> outputs(const RenderOptions& options, const image::RgbImage&
 /// The picture of one drawing.
 Result<image::RgbImage> paint(const RenderOptions& options, const View& view, const shadow::Geometry& geometry,
                               const Drawing& drawing) {
-  auto picture = shadow::composite(view.scene, geometry.surfaces, view.camera, drawing.shading.surface, view.lights,
-                                   drawing.shading.masks, {.ambient = options.view.ambient});
+  auto picture = shadow::composite(view.scene, geometry.surfaces, view.camera, drawing.shading, view.lights,
+                                   {.ambient = options.view.ambient});
   if (options.show.empty()) return picture;
   return drawOver(picture, options.show, geometry, {view.camera, view.lights});
 }

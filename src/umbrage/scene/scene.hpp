@@ -19,6 +19,10 @@ struct Material {
   double opacity = 1.0;
 };
 
+/// The part of the light that passes a surface, per channel: its colour where it is not opaque.
+/// Source: Kim, Kim and Turk, real-time shadows of transparent casters, 2008.
+[[nodiscard]] inline Vec3 transmittance(const Material& material) { return (1.0 - material.opacity) * material.colour; }
+
 /// One placed mesh. `name` is its path through the file's hierarchy, levels separated by '/': "House/Roof/Tiles".
 struct Instance {
   std::string name;

@@ -1,9 +1,15 @@
 #include "umbrage/shadow/light_mask.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace umbrage::shadow {
 namespace {
 
 constexpr std::uint8_t kNoSurfaceCode = 128;
+constexpr float kTintStep = 1.0f / 255.0f;  // below it no eye and no file tells tints apart
+
+std::uint8_t codeOf(float part) { return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(part, 0.0f, 1.0f))); }
 
 bool anyNonzeroNear(const image::GreyImage& picture, int x, int y, int radius) {
   for (int v = y - radius; v <= y + radius; ++v)
@@ -13,8 +19,10 @@ bool anyNonzeroNear(const image::GreyImage& picture, int x, int y, int radius) {
 }
 
 bool differ(const LightMask& a, const LightMask& b, int x, int y) {
-  if (a.covered(x, y) != b.covered(x, y) || a.light(x, y) != b.light(x, y)) return true;
-  return !a.tint.empty() && !b.tint.empty() && !(a.tint(x, y) == b.tint(x, y));
+  if (a.covered(x, y) != b.covered(x, y)) return true;
+  if (a.tint.empty() || b.tint.empty()) return a.light(x, y) != b.light(x, y);
+  const Vec3f difference = glm::abs(a.tint(x, y) - b.tint(x, y));
+  return std::max({difference.x, difference.y, difference.z}) > kTintStep;
 }
 
 }  // namespace
@@ -23,6 +31,20 @@ image::GreyImage fileImage(const LightMask& mask) {
   image::GreyImage out(mask.light.width(), mask.light.height());
   for (std::size_t i = 0; i < out.size(); ++i)
     out.pixels()[i] = mask.covered.pixels()[i] != 0 ? mask.light.pixels()[i] : kNoSurfaceCode;
+  return out;
+}
+
+std::uint8_t luminanceCode(const Vec3f& light) {
+  return codeOf(0.2126f * light.x + 0.7152f * light.y + 0.0722f * light.z);
+}
+
+image::RgbImage tintedFileImage(const LightMask& mask) {
+  UMBRAGE_CHECK(!mask.tint.empty(), "a mask without a tint");
+  image::RgbImage out(mask.tint.width(), mask.tint.height(), {kNoSurfaceCode, kNoSurfaceCode, kNoSurfaceCode});
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Vec3f& tint = mask.tint.pixels()[i];
+    if (mask.covered.pixels()[i] != 0) out.pixels()[i] = {codeOf(tint.x), codeOf(tint.y), codeOf(tint.z)};
+  }
   return out;
 }
 

@@ -1,21 +1,32 @@
 #pragma once
 
+#include <vector>
+
 #include "umbrage/image/image.hpp"
+#include "umbrage/math/vec.hpp"
 
 namespace umbrage::shadow {
 
 /// How much of one light reaches each pixel's surface: the one product of every technique.
 /// light: 0 (umbra, or the visible side does not face the light, or outside a spot's cone) .. 255 (lit); between: soft.
-/// tint: empty, or per channel, for coloured transparent casters; then `light` is its luminance.
-/// covered: 1 where a surface is seen, else 0 (light is 0 there).
+/// tint: empty, or per channel from 0 to 1, where coloured transparent casters are told apart; then `light` is its luminance, and both are of the first
+/// opaque surface.
+/// veils: with a tint, the same for every veil of the frame's VeilBuffer.
+/// covered: 1 where a surface is seen (with a tint: an opaque one), else 0 (light is 0 there).
 struct LightMask {
   image::GreyImage light;
-  image::RgbImage tint;
+  image::Image<Vec3f> tint;
   image::GreyImage covered;
+  std::vector<Vec3f> veils;
 };
+
+/// The luminance of linear light from 0 to 1, as an 8-bit code.
+[[nodiscard]] std::uint8_t luminanceCode(const Vec3f& light);
 
 /// The mask as a file holds it: 128 where there is no surface.
 [[nodiscard]] image::GreyImage fileImage(const LightMask& mask);
+/// The same of a tinted mask, per channel. REQUIRES: it has a tint.
+[[nodiscard]] image::RgbImage tintedFileImage(const LightMask& mask);
 
 /// How two masks of one view differ.
 struct MaskDifference {

@@ -13,9 +13,11 @@
 #include "umbrage/scene/light.hpp"
 #include "umbrage/scene/surfaces.hpp"
 #include "umbrage/shadow/caster_set.hpp"
+#include "umbrage/shadow/filters.hpp"
 #include "umbrage/shadow/finders/finder.hpp"
 #include "umbrage/shadow/light_mask.hpp"
 #include "umbrage/shadow/surface_buffer.hpp"
+#include "umbrage/shadow/veils.hpp"
 
 namespace umbrage::shadow {
 
@@ -34,11 +36,13 @@ struct Traits {
 struct Geometry {
   scene::Surfaces surfaces;
   CasterSet casters;
+  Filters filters = {};  ///< for techniques that know transparent casters; to all others every surface is opaque
 };
 [[nodiscard]] inline std::shared_ptr<const Geometry> makeGeometry(const scene::Scene& scene) {
   auto surfaces = scene::flatten(scene);
   auto casters = buildCasters(surfaces);
-  return std::make_shared<const Geometry>(Geometry{std::move(surfaces), std::move(casters)});
+  Filters filters(surfaces, scene.materials);
+  return std::make_shared<const Geometry>(Geometry{std::move(surfaces), std::move(casters), std::move(filters)});
 }
 
 /// How much of the shadow volumes is drawn; no pixel depends on it.
@@ -61,6 +65,9 @@ struct Frame {
   FinderKind silhouettes = FinderKind::automatic;  ///< who finds them, where the technique needs silhouettes; changes no pixel
   VolumeFill fill = VolumeFill::reduced;
   std::optional<Extrusion> extrusion = {};  ///< none: as the technique was made
+  /// So many veils of each pixel, the nearest, are lit each by itself; those behind them as the last of these, and without any shadow when it is 0. None: all
+  /// are lit by themselves. For techniques that are `tinted`.
+  std::optional<int> veilLayers = {};
   bool detailed = false;  ///< LightStats::choices and volumeFragments are wanted, which take time of their own
 };
 
@@ -112,8 +119,9 @@ struct FrameStats {
 
 /// One mask per light of the frame, and what the camera sees.
 struct Shading {
-  SurfaceBuffer surface;
+  SurfaceBuffer surface;  ///< of techniques that are `tinted`: the first opaque surfaces
   std::vector<LightMask> masks;
+  VeilBuffer veils = {};  ///< before `surface`; only of techniques that are `tinted`
   FrameStats stats;
 };
 
