@@ -18,9 +18,9 @@ struct Chosen {
   std::string renderer;  ///< the GL renderer string, where graphics were looked for; else empty
 };
 
-/// By name, or "auto": zpass on a GPU, else ray_traced. Errors: usage for an unknown name, device for one that cannot
-/// run here.
-[[nodiscard]] Result<Chosen> chooseTechnique(const std::string& name);
+/// By name, or "auto": where surfaces let light through (`veils`) transparent_cpu, else zpass on a GPU and hybrid_cpu without one.
+/// Errors: usage for an unknown name, device for one that cannot run here.
+[[nodiscard]] Result<Chosen> chooseTechnique(const std::string& name, bool veils = false);
 
 /// A name of a technique, or "auto".
 [[nodiscard]] Result<std::string> parseTechnique(const std::string& word);

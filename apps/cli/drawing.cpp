@@ -11,7 +11,7 @@ Result<Drawing> draw(const std::string& technique, const std::shared_ptr<const s
   const Stage stage(console, fmt::format("shading with {}", technique));
   Drawing drawing;
   Stopwatch watch;
-  auto chosen = chooseTechnique(technique);
+  auto chosen = chooseTechnique(technique, !geometry->filters.empty());
   if (!chosen) return tl::unexpected(chosen.error());
   drawing.traits = chosen->technique->traits();
   drawing.reason = chosen->reason;
@@ -24,6 +24,7 @@ Result<Drawing> draw(const std::string& technique, const std::shared_ptr<const s
                                            .silhouettes = view.silhouettes,
                                            .fill = view.fill,
                                            .extrusion = view.extrusion,
+                                           .veilLayers = view.veilLayers,
                                            .detailed = view.detailed});
   if (!shading) return tl::unexpected(shading.error());
   drawing.shadeMs = watch.lap();

@@ -1,5 +1,7 @@
 #include "options.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace umbrage::cli {
@@ -37,6 +39,14 @@ auto degreesIn(double low, double high) {
   return [low, high](const std::string& word) { return parseDegrees(word, low, high); };
 }
 
+Result<std::optional<int>> parseVeilLayers(std::string_view word) {
+  if (word == "all") return std::optional<int>();
+  const auto number = parseNumber(word, 0, 1000);
+  if (!number || *number != std::floor(*number))
+    return fail(ErrorCode::usage, "must be a whole number from 0 to 1000, or all");
+  return std::optional(static_cast<int>(*number));
+}
+
 }  // namespace
 
 void addSceneOptions(CLI::App& app, SceneOptions& options) {
@@ -57,8 +67,8 @@ void addSceneOptions(CLI::App& app, SceneOptions& options) {
   addValue(app, "--lod", "LOD", "Level of detail of a CityJSON file (default: the highest)", options.lod, parseWord,
            kScene);
   addValue(app, "--crs", "EPSG:CODE|local",
-           "What the coordinates are, instead of what the file says; local: metres of no place in particular", options.crs,
-           parseWord, kScene);
+           "What the coordinates are, instead of what the file says; local: metres of no place in particular",
+           options.crs, parseWord, kScene);
   addValue(app, "--height-property", "NAME", "Footprints: the property that is the height, in metres",
            options.heightProperty, parseWord, kScene);
   addValue(app, "--default-height", "M", "Footprints: the height of those that have none", options.defaultHeight,
@@ -96,14 +106,23 @@ void addGroundOption(CLI::App& app, ViewOptions& options) {
 }
 
 void addSilhouetteOption(CLI::App& app, ViewOptions& options) {
-  addValue(app, "--silhouette", "NAME|auto", "How shadow volumes find their silhouettes; changes times, no pixel (default auto)",
-           options.silhouettes, parseFinder, kPicture);
+  addValue(app, "--silhouette", "NAME|auto",
+           "How shadow volumes find their silhouettes; changes times, no pixel (default auto)", options.silhouettes,
+           parseFinder, kPicture);
   addValue(app, "--volume-fill", "reduced|plain",
-           "Whether shadow volumes leave out what changes no pixel; changes times, no pixel (default reduced)", options.fill,
-           parseFill, kPicture);
+           "Whether shadow volumes leave out what changes no pixel; changes times, no pixel (default reduced)",
+           options.fill, parseFill, kPicture);
   addValue(app, "--extrude", "cpu|vertex|geometry",
-           "Who carries shadow volumes away from the light: the processor, a vertex or a geometry shader; changes times, no pixel (default vertex)",
+           "Who carries shadow volumes away from the light: the processor, a vertex or a geometry shader; changes "
+           "times, no pixel (default vertex)",
            options.extrusion, parseExtrusion, kPicture);
+}
+
+void addVeilOption(CLI::App& app, ViewOptions& options) {
+  addValue(app, "--veil-layers", "N|all",
+           "So many surfaces of a pixel that let light through, the nearest, have the shadows of others on them; 0: "
+           "none (faster; default all)",
+           options.veilLayers, parseVeilLayers, kPicture);
 }
 
 }  // namespace umbrage::cli

@@ -9,7 +9,9 @@ namespace {
 constexpr std::uint8_t kNoSurfaceCode = 128;
 constexpr float kTintStep = 1.0f / 255.0f;  // below it no eye and no file tells tints apart
 
-std::uint8_t codeOf(float part) { return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(part, 0.0f, 1.0f))); }
+std::uint8_t codeOf(float part) {
+  return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(part, 0.0f, 1.0f)));
+}
 
 bool anyNonzeroNear(const image::GreyImage& picture, int x, int y, int radius) {
   for (int v = y - radius; v <= y + radius; ++v)
@@ -18,14 +20,14 @@ bool anyNonzeroNear(const image::GreyImage& picture, int x, int y, int radius) {
   return false;
 }
 
-bool differ(const LightMask& a, const LightMask& b, int x, int y) {
+}  // namespace
+
+bool differAt(const LightMask& a, const LightMask& b, int x, int y) {
   if (a.covered(x, y) != b.covered(x, y)) return true;
   if (a.tint.empty() || b.tint.empty()) return a.light(x, y) != b.light(x, y);
   const Vec3f difference = glm::abs(a.tint(x, y) - b.tint(x, y));
   return std::max({difference.x, difference.y, difference.z}) > kTintStep;
 }
-
-}  // namespace
 
 image::GreyImage fileImage(const LightMask& mask) {
   image::GreyImage out(mask.light.width(), mask.light.height());
@@ -48,7 +50,8 @@ image::RgbImage tintedFileImage(const LightMask& mask) {
   return out;
 }
 
-MaskDifference compare(const LightMask& mask, const LightMask& truth, const image::GreyImage& edges, int edgeTolerance) {
+MaskDifference compare(const LightMask& mask, const LightMask& truth, const image::GreyImage& edges,
+                       int edgeTolerance) {
   UMBRAGE_CHECK(mask.light.width() == truth.light.width() && mask.light.height() == truth.light.height() &&
                     edges.width() == truth.light.width() && edges.height() == truth.light.height(),
                 "masks of different sizes");
@@ -56,7 +59,7 @@ MaskDifference compare(const LightMask& mask, const LightMask& truth, const imag
   for (int y = 0; y < truth.light.height(); ++y) {
     for (int x = 0; x < truth.light.width(); ++x) {
       difference.covered += truth.covered(x, y) != 0;
-      if (!differ(mask, truth, x, y)) continue;
+      if (!differAt(mask, truth, x, y)) continue;
       ++difference.differing;
       difference.farFromEdge += !anyNonzeroNear(edges, x, y, edgeTolerance);
     }

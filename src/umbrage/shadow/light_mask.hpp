@@ -28,6 +28,9 @@ struct LightMask {
 /// The same of a tinted mask, per channel. REQUIRES: it has a tint.
 [[nodiscard]] image::RgbImage tintedFileImage(const LightMask& mask);
 
+/// Whether two masks say different things of a pixel: of tints, whether they are more than 1/255 apart in a channel.
+[[nodiscard]] bool differAt(const LightMask& a, const LightMask& b, int x, int y);
+
 /// How two masks of one view differ.
 struct MaskDifference {
   std::size_t differing = 0;    ///< pixels where either covered or light differs
