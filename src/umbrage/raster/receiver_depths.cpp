@@ -71,11 +71,13 @@ Result<void> ReceiverDepths::find(const BlockImage<float>& nearness, std::span<c
                  [&](std::size_t block) { return depthsOf(nearness.blocks[block].pixel.data(), receivers[block]); });
 }
 
-Result<void> ReceiverDepths::find(const LayeredBlocks& seen, std::span<const std::uint64_t> receivers) {
-  return findAll(seen.columns, seen.rows, [&](std::size_t block) {
-    Depths all;
-    for (std::size_t l = seen.first[block]; l < seen.first[block + 1]; ++l) {
-      const Depths depths = depthsOf(seen.layers[l].nearness.data(), receivers[l]);
+Result<void> ReceiverDepths::find(const BlockImage<float>& nearness, const VeilLayers& veils,
+                                  std::span<const std::uint64_t> receivers) {
+  return findAll(nearness.columns, nearness.rows, [&](std::size_t block) {
+    const std::size_t surface = veils.surface(block);
+    Depths all = depthsOf(nearness.blocks[block].pixel.data(), receivers[surface]);
+    for (std::size_t l = 0; l < veils.count(block); ++l) {
+      const Depths depths = depthsOf(veils.layers[veils.first[block] + l].nearness.data(), receivers[surface + 1 + l]);
       all = {std::min(all.farthest, depths.farthest), std::max(all.nearest, depths.nearest)};
     }
     return all;

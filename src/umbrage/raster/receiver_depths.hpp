@@ -19,8 +19,9 @@ class ReceiverDepths {
   /// Errors: ErrorCode::device when memory runs out.
   [[nodiscard]] Result<void> find(const BlockImage<float>& nearness, std::span<const std::uint64_t> receivers);
 
-  /// The same of layers: `receivers` per layer.
-  [[nodiscard]] Result<void> find(const LayeredBlocks& seen, std::span<const std::uint64_t> receivers);
+  /// The same with veils: `receivers` per surface, as VeilLayers numbers them.
+  [[nodiscard]] Result<void> find(const BlockImage<float>& nearness, const VeilLayers& veils,
+                                  std::span<const std::uint64_t> receivers);
 
   /// Of a row of blocks, in whole groups of eight and one more: nearness of the farthest, and of the nearest, receiver of each.
   [[nodiscard]] const float* farthest(int row) const { return farthest_.data() + start(row); }

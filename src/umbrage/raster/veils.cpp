@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace umbrage::raster {
 namespace {
 
 constexpr std::size_t kPixels = kBlock * kBlock;
 
-/// A pixel of a veil.
-struct Fragment {
-  std::uint32_t block;  ///< in its band
-  std::uint32_t pixel;
-  float nearness;
-  std::uint32_t triangle;
-};
+using Fragment = VeilRaster::Fragment;
 
 struct Covered {
   std::uint64_t sure = 0, asked = 0;  ///< pixels, a bit each: in the patch; left to exact arithmetic
@@ -43,32 +38,41 @@ UMBRAGE_IN_BLOCKS Covered coverBlock(const BlockPatch& t, const Span& rows, cons
 struct BandVeils {
   const Corners& corners;
   const SeenBlocks& seen;
-  int first, last;  ///< rows of blocks
-  std::vector<Fragment> fragments;
-  std::vector<std::uint32_t> depth;  ///< per block and pixel: its fragments
+  int width;                         ///< of the picture
+  int first, last;                   ///< rows of blocks
+  std::vector<Fragment>& fragments;  ///< in the order of the patches
+  std::span<std::uint32_t> depth;    ///< per pixel, row by row: its fragments
   std::vector<float> farthest;       ///< per block: nearness of the farthest opaque pixel
 
-  BandVeils(const Corners& c, const SeenBlocks& s, int band)
-      : corners(c), seen(s), first(band * kBandBlocks), last(std::min(first + kBandBlocks, s.nearness.rows)) {
-    const auto blocks = static_cast<std::size_t>((last - first) * s.nearness.columns);
-    depth.assign(blocks * kPixels, 0);
-    for (std::size_t i = 0; i < blocks; ++i) {
-      const auto& pixels = seen.nearness.blocks[seen.nearness.index(0, first) + i].pixel;
+  BandVeils(const Corners& c, const SeenBlocks& s, int w, int band, std::vector<Fragment>& f,
+            std::span<std::uint32_t> d)
+      : corners(c),
+        seen(s),
+        width(w),
+        first(band * kBandBlocks),
+        last(std::min(first + kBandBlocks, s.nearness.rows)),
+        fragments(f),
+        depth(d) {
+    fragments.clear();
+    for (std::size_t i = seen.nearness.index(0, first); i < seen.nearness.index(0, last); ++i) {
+      const auto& pixels = seen.nearness.blocks[i].pixel;
       farthest.push_back(*std::min_element(pixels.begin(), pixels.end()));
     }
   }
 
-  void add(std::uint32_t block, const Covered& covered, const Patch& patch, int column, int row,
-           const float* nearness) {
+  void add(const Covered& covered, const Patch& patch, int column, int row, const float* nearness) {
     std::uint64_t in = covered.sure;
     for (std::uint64_t asked = covered.asked; asked != 0; asked &= asked - 1) {
       const int bit = std::countr_zero(asked);
       if (patch.covers(corners, kBlock * column + bit % kBlock, kBlock * row + bit / kBlock)) in |= asked & -asked;
     }
+    const int corner = kBlock * (row - first) * width + kBlock * column;
     for (; in != 0; in &= in - 1) {
-      const auto bit = static_cast<std::uint32_t>(std::countr_zero(in));
-      fragments.push_back({block, bit, nearness[bit], patch.id});
-      ++depth[block * kPixels + bit];
+      const int bit = std::countr_zero(in), x = bit % kBlock;
+      const auto pixel = static_cast<std::uint32_t>(corner + bit / kBlock * width + x);
+      if (kBlock * column + x >= width || pixel >= depth.size()) continue;  // blocks stick out of the picture
+      fragments.push_back({pixel, nearness[bit], patch.id});
+      ++depth[pixel];
     }
   }
 };
@@ -84,63 +88,39 @@ UMBRAGE_VECTOR_UNITS void drawVeil(BandVeils& band, const Patch& patch) {
     overSquares<kBlock>(patch, columns.begin, row, t);
     const Span rows = rowsOf(patch, row);
     for (int column = columns.begin; column < columns.end; ++column, moveOn(t, 1)) {
-      const auto block = static_cast<std::uint32_t>((row - band.first) * band.seen.nearness.columns + column);
+      const auto block = static_cast<std::size_t>((row - band.first) * band.seen.nearness.columns + column);
       const auto most = lanesOf<float>(t.at + t.above + t.doubt);
       if (most[3] <= band.farthest[block] || most[0] < 0.0f || most[1] < 0.0f || most[2] < 0.0f) continue;
       const float* behind = band.seen.nearness.blocks[band.seen.nearness.index(column, row)].pixel.data();
       const Covered covered = coverBlock(t, rows, behind, nearness);
-      if ((covered.sure | covered.asked) != 0) band.add(block, covered, patch, column, row, nearness);
+      if ((covered.sure | covered.asked) != 0) band.add(covered, patch, column, row, nearness);
     }
   }
 }
 
-// The layers of one band.
-struct BandLayers {
-  std::vector<std::size_t> count;  ///< per block
-  std::vector<Layer> layers;
-};
-
-bool isNearer(float nearnessA, std::uint32_t a, float nearnessB, std::uint32_t b) {
-  return nearnessA > nearnessB || (nearnessA == nearnessB && a < b);
+bool isNearer(const shadow::Veil& a, const shadow::Veil& b) {
+  return a.depth < b.depth || (a.depth == b.depth && a.triangle < b.triangle);
 }
 
-// The last of `count` veils of a pixel moves to where it belongs.
-void sink(std::span<Layer> layers, std::size_t pixel, std::size_t count) {
-  for (std::size_t l = count; l > 1; --l) {
-    Layer &here = layers[l], &before = layers[l - 1];
-    if (isNearer(before.nearness[pixel], before.triangle[pixel], here.nearness[pixel], here.triangle[pixel])) return;
-    std::swap(before.nearness[pixel], here.nearness[pixel]);
-    std::swap(before.triangle[pixel], here.triangle[pixel]);
+// Mostly a handful.
+void sortFew(std::span<shadow::Veil> veils) {
+  constexpr std::size_t kFew = 16;
+  if (veils.size() > kFew) {
+    std::ranges::sort(veils, isNearer);
+    return;
   }
+  for (std::size_t i = 1; i < veils.size(); ++i)
+    for (std::size_t k = i; k > 0 && isNearer(veils[k], veils[k - 1]); --k) std::swap(veils[k], veils[k - 1]);
 }
 
-BandLayers layersOf(BandVeils& band) {
-  BandLayers out;
-  std::vector<std::size_t> first;
-  for (std::size_t block = 0; block < band.farthest.size(); ++block) {
-    const auto begin = band.depth.begin() + static_cast<std::ptrdiff_t>(block * kPixels);
-    first.push_back(out.layers.size());
-    out.count.push_back(1 + *std::max_element(begin, begin + kPixels));
-    const std::size_t at = band.seen.nearness.index(0, band.first) + block;
-    out.layers.push_back({band.seen.nearness.blocks[at].pixel, band.seen.triangle.blocks[at].pixel});
-    Layer none;
-    none.nearness.fill(Layer::kNone), none.triangle.fill(shadow::kNoTriangle);
-    out.layers.resize(first.back() + out.count.back(), none);
-  }
-  // Where many lie behind each other, their ways down the pixels would be long.
-  constexpr std::size_t kDeep = 24;
-  if (*std::ranges::max_element(out.count) > kDeep)
-    std::ranges::sort(band.fragments, [](const Fragment& a, const Fragment& b) {
-      return isNearer(a.nearness, a.triangle, b.nearness, b.triangle);
-    });
-  std::ranges::fill(band.depth, 0u);
-  for (const Fragment& f : band.fragments) {
-    const std::size_t place = ++band.depth[f.block * kPixels + f.pixel];
-    const std::span<Layer> layers = std::span(out.layers).subspan(first[f.block]);
-    layers[place].nearness[f.pixel] = f.nearness, layers[place].triangle[f.pixel] = f.triangle;
-    sink(layers, f.pixel, place);
-  }
-  return out;
+// Puts a band's fragments where they belong. `first`: per pixel of the band, and one more.
+void place(std::span<const Fragment> fragments, std::span<std::uint32_t> first, float scale,
+           std::vector<shadow::Veil>& veils) {
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for (const Fragment& f : fragments) veils[next[f.pixel]++] = {f.triangle, 1.0f / (f.nearness * scale)};
+  for (std::size_t pixel = 0; pixel + 1 < first.size(); ++pixel)
+    if (first[pixel + 1] - first[pixel] > 1)
+      sortFew(std::span(veils).subspan(first[pixel], first[pixel + 1] - first[pixel]));
 }
 
 }  // namespace
@@ -151,8 +131,10 @@ VeilRaster::VeilRaster(const shadow::Geometry& geometry) : geometry_(geometry) {
 }
 
 Result<void> VeilRaster::draw(const PixelSpace& space, const SeenPositions& positions, const SeenBlocks& seen,
-                              LayeredBlocks& out) {
+                              shadow::VeilBuffer& out) {
+  out = {};
   edgeOn_.clear();
+  if (veils_.empty()) return {};
   const auto make = [&](std::size_t i, Patch& patch) {
     const Shown shown = makeSurfacePatch(space, positions, geometry_.surfaces, veils_[i], patch);
     if (shown == Shown::edgeOn) {
@@ -161,51 +143,68 @@ Result<void> VeilRaster::draw(const PixelSpace& space, const SeenPositions& posi
     }
     return shown == Shown::yes;
   };
-  if (auto done = bands_.fill(veils_.size(), space.height, make, [](const Patch&, int) { return ~std::uint64_t{0}; });
-      !done)
-    return done;
+  const auto everywhere = [](const Patch&, int) { return ~std::uint64_t{0}; };
+  if (auto done = bands_.fill(veils_.size(), space.height, make, everywhere); !done) return done;
   std::sort(edgeOn_.begin(), edgeOn_.end());
   const Corners corners{positions.mapped, {}};
-  std::vector<BandLayers> bands(static_cast<std::size_t>(bands_.count()));
-  if (auto done = parallel::forEach(bands_.count(),
-                                    [&](int band) {
-                                      BandVeils drawing(corners, seen, band);
-                                      bands_.forEachIn(
-                                          band, [&](const Patch& patch, std::uint64_t) { drawVeil(drawing, patch); });
-                                      bands[static_cast<std::size_t>(band)] = layersOf(drawing);
-                                    });
-      !done)
-    return done;
-  out.columns = seen.nearness.columns, out.rows = seen.nearness.rows;
-  out.first.assign(1, 0);
-  for (const BandLayers& band : bands)
-    for (const std::size_t count : band.count) out.first.push_back(out.first.back() + count);
-  out.layers.resize(out.first.back());
-  std::vector<std::size_t> start{0};
-  for (const BandLayers& band : bands) start.push_back(start.back() + band.layers.size());
+  const auto width = static_cast<std::size_t>(space.width), pixels = width * static_cast<std::size_t>(space.height);
+  const auto begin = [&](int band) { return std::min(pixels, width * static_cast<std::size_t>(band * kBand)); };
+  out.first.assign(pixels + 1, 0);
+  fragments_.resize(static_cast<std::size_t>(bands_.count()));
+  auto drawn = parallel::forEach(bands_.count(), [&](int band) {
+    BandVeils drawing(corners, seen, space.width, band, fragments_[static_cast<std::size_t>(band)],
+                      std::span(out.first).subspan(begin(band), begin(band + 1) - begin(band)));
+    bands_.forEachIn(band, [&](const Patch& patch, std::uint64_t) { drawVeil(drawing, patch); });
+  });
+  if (!drawn) return drawn;
+  std::uint32_t sum = 0;
+  for (std::uint32_t& first : out.first) sum += std::exchange(first, sum);
+  out.veils.resize(sum);
   return parallel::forEach(bands_.count(), [&](int band) {
-    const auto b = static_cast<std::size_t>(band);
-    std::ranges::copy(bands[b].layers, out.layers.begin() + static_cast<std::ptrdiff_t>(start[b]));
+    place(fragments_[static_cast<std::size_t>(band)],
+          std::span(out.first).subspan(begin(band), begin(band + 1) - begin(band) + 1), static_cast<float>(space.scale),
+          out.veils);
   });
 }
 
-shadow::VeilBuffer veilBuffer(const PixelSpace& space, const LayeredBlocks& seen) {
-  shadow::VeilBuffer out;
-  const auto scale = static_cast<float>(space.scale);
-  out.first.assign(1, 0);
-  for (int y = 0; y < space.height; ++y) {
-    for (int x = 0; x < space.width; ++x) {
-      const std::size_t block = seen.index(x / kBlock, y / kBlock);
-      const auto pixel = static_cast<std::size_t>(y % kBlock * kBlock + x % kBlock);
-      for (std::size_t l = seen.first[block] + 1; l < seen.first[block + 1]; ++l) {
-        const Layer& layer = seen.layers[l];
-        if (layer.triangle[pixel] == shadow::kNoTriangle) break;
-        out.veils.push_back({layer.triangle[pixel], 1.0f / (layer.nearness[pixel] * scale)});
+Result<void> layersOf(const PixelSpace& space, const shadow::VeilBuffer& veils, std::size_t most, VeilLayers& out) {
+  out.columns = (space.width + kBlock - 1) / kBlock, out.rows = (space.height + kBlock - 1) / kBlock;
+  out.first.assign(out.index(0, out.rows) + 1, 0);
+  out.layers.clear();
+  if (veils.empty() || most == 0) return {};
+  const auto width = static_cast<std::size_t>(space.width);
+  // Calls fn(pixel of the block, its veils).
+  const auto forEachPixel = [&](int column, int row, const auto& fn) {
+    for (int y = kBlock * row; y < std::min(space.height, kBlock * (row + 1)); ++y)
+      for (int x = kBlock * column; x < std::min(space.width, kBlock * (column + 1)); ++x) {
+        const auto here = veils.at(static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x));
+        fn(static_cast<std::size_t>(y % kBlock * kBlock + x % kBlock), here.first(std::min(most, here.size())));
       }
-      out.first.push_back(out.veils.size());
+  };
+  auto counted = parallel::forEach(out.rows, [&](int row) {
+    for (int column = 0; column < out.columns; ++column) {
+      std::size_t& count = out.first[out.index(column, row)];
+      forEachPixel(column, row,
+                   [&](std::size_t, std::span<const shadow::Veil> here) { count = std::max(count, here.size()); });
     }
-  }
-  return out;
+  });
+  if (!counted) return counted;
+  std::size_t sum = 0;
+  for (std::size_t& first : out.first) sum += std::exchange(first, sum);
+  out.layers.resize(sum);
+  const auto scale = static_cast<float>(space.scale);
+  return parallel::forEach(out.rows, [&](int row) {
+    for (int column = 0; column < out.columns; ++column) {
+      const std::size_t block = out.index(column, row);
+      const std::span<Layer> layers = std::span(out.layers).subspan(out.first[block], out.count(block));
+      for (Layer& layer : layers) layer.nearness.fill(Layer::kNone), layer.triangle.fill(shadow::kNoTriangle);
+      if (layers.empty()) continue;
+      forEachPixel(column, row, [&](std::size_t pixel, std::span<const shadow::Veil> here) {
+        for (std::size_t l = 0; l < here.size(); ++l)
+          layers[l].nearness[pixel] = 1.0f / (here[l].depth * scale), layers[l].triangle[pixel] = here[l].triangle;
+      });
+    }
+  });
 }
 
 }  // namespace umbrage::raster

@@ -57,7 +57,7 @@ Vec3 received(const PreparedLight& light, const Vec3& point, const Vec3& n) {
 
 Vec3 maskValue(const LightMask& mask, int x, int y) {
   if (mask.tint.empty()) return Vec3(mask.light(x, y) / 255.0);
-  return Vec3(mask.tint(x, y));
+  return partsOf(mask.tint(x, y));
 }
 
 /// What surfaces look like from one camera.
@@ -104,7 +104,7 @@ Vec3 veiled(Vec3 behind, const Painter& painter, const Vec3& ray, std::span<cons
   for (std::size_t k = veils.size(); k-- > 0;) {
     Face face;
     painter.turnTo(veils[k].triangle, face);
-    const Vec3 own = painter.colour(face, ray, veils[k].depth, [&](std::size_t i) { return Vec3(masks[i].veils[first + k]); });
+    const Vec3 own = painter.colour(face, ray, veils[k].depth, [&](std::size_t i) { return partsOf(masks[i].veils[first + k]); });
     behind = scene::transmittance(*face.material) * behind + face.material->opacity * own;
   }
   return behind;

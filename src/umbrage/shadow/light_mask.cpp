@@ -7,11 +7,12 @@ namespace umbrage::shadow {
 namespace {
 
 constexpr std::uint8_t kNoSurfaceCode = 128;
-constexpr float kTintStep = 1.0f / 255.0f;  // below it no eye and no file tells tints apart
+constexpr int kTintStep = 65535 / 255;  // below it no eye and no file tells tints apart
 
-std::uint8_t codeOf(float part) {
-  return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(part, 0.0f, 1.0f)));
-}
+// The nearest of 8 bits: 65535 = 255 x 257.
+std::uint8_t codeOf(std::uint16_t part) { return static_cast<std::uint8_t>((part + 128u) / 257u); }
+
+int apart(std::uint16_t a, std::uint16_t b) { return std::abs(int(a) - int(b)); }
 
 bool anyNonzeroNear(const image::GreyImage& picture, int x, int y, int radius) {
   for (int v = y - radius; v <= y + radius; ++v)
@@ -25,8 +26,8 @@ bool anyNonzeroNear(const image::GreyImage& picture, int x, int y, int radius) {
 bool differAt(const LightMask& a, const LightMask& b, int x, int y) {
   if (a.covered(x, y) != b.covered(x, y)) return true;
   if (a.tint.empty() || b.tint.empty()) return a.light(x, y) != b.light(x, y);
-  const Vec3f difference = glm::abs(a.tint(x, y) - b.tint(x, y));
-  return std::max({difference.x, difference.y, difference.z}) > kTintStep;
+  const Tint &p = a.tint(x, y), &q = b.tint(x, y);
+  return std::max({apart(p.r, q.r), apart(p.g, q.g), apart(p.b, q.b)}) > kTintStep;
 }
 
 image::GreyImage fileImage(const LightMask& mask) {
@@ -36,16 +37,23 @@ image::GreyImage fileImage(const LightMask& mask) {
   return out;
 }
 
-std::uint8_t luminanceCode(const Vec3f& light) {
-  return codeOf(0.2126f * light.x + 0.7152f * light.y + 0.0722f * light.z);
+Tint tintOf(const Vec3f& parts) {
+  const auto code = [](float part) {
+    return static_cast<std::uint16_t>(std::clamp(part, 0.0f, 1.0f) * 65535.0f + 0.5f);
+  };
+  return {code(parts.x), code(parts.y), code(parts.z)};
+}
+
+std::uint8_t luminanceCode(const Tint& tint) {
+  return static_cast<std::uint8_t>(std::lround((0.2126 * tint.r + 0.7152 * tint.g + 0.0722 * tint.b) / 257.0));
 }
 
 image::RgbImage tintedFileImage(const LightMask& mask) {
   UMBRAGE_CHECK(!mask.tint.empty(), "a mask without a tint");
   image::RgbImage out(mask.tint.width(), mask.tint.height(), {kNoSurfaceCode, kNoSurfaceCode, kNoSurfaceCode});
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const Vec3f& tint = mask.tint.pixels()[i];
-    if (mask.covered.pixels()[i] != 0) out.pixels()[i] = {codeOf(tint.x), codeOf(tint.y), codeOf(tint.z)};
+    const Tint& tint = mask.tint.pixels()[i];
+    if (mask.covered.pixels()[i] != 0) out.pixels()[i] = {codeOf(tint.r), codeOf(tint.g), codeOf(tint.b)};
   }
   return out;
 }

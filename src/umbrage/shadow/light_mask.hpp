@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "umbrage/image/image.hpp"
@@ -7,21 +8,31 @@
 
 namespace umbrage::shadow {
 
+/// Parts of light per channel, 65535 being all.
+struct Tint {
+  std::uint16_t r = 0, g = 0, b = 0;
+  friend bool operator==(const Tint&, const Tint&) = default;
+};
+inline constexpr Tint kFullTint{65535, 65535, 65535};
+/// From parts from 0 to 1, and back.
+[[nodiscard]] Tint tintOf(const Vec3f& parts);
+[[nodiscard]] inline Vec3 partsOf(const Tint& tint) { return Vec3(tint.r, tint.g, tint.b) / 65535.0; }
+
 /// How much of one light reaches each pixel's surface: the one product of every technique.
 /// light: 0 (umbra, or the visible side does not face the light, or outside a spot's cone) .. 255 (lit); between: soft.
-/// tint: empty, or per channel from 0 to 1, where coloured transparent casters are told apart; then `light` is its luminance, and both are of the first
+/// tint: empty, or per channel, where coloured transparent casters are told apart; then `light` is its luminance, and both are of the first
 /// opaque surface.
 /// veils: with a tint, the same for every veil of the frame's VeilBuffer.
 /// covered: 1 where a surface is seen (with a tint: an opaque one), else 0 (light is 0 there).
 struct LightMask {
   image::GreyImage light;
-  image::Image<Vec3f> tint;
+  image::Image<Tint> tint;
   image::GreyImage covered;
-  std::vector<Vec3f> veils;
+  std::vector<Tint> veils;
 };
 
-/// The luminance of linear light from 0 to 1, as an 8-bit code.
-[[nodiscard]] std::uint8_t luminanceCode(const Vec3f& light);
+/// The luminance, as an 8-bit code.
+[[nodiscard]] std::uint8_t luminanceCode(const Tint& tint);
 
 /// The mask as a file holds it: 128 where there is no surface.
 [[nodiscard]] image::GreyImage fileImage(const LightMask& mask);

@@ -5,16 +5,6 @@
 namespace umbrage::shadow {
 namespace {
 
-std::vector<std::int8_t> sidesThatCount(const CasterSet& casters, const Filters& filters, const Vec4& light) {
-  auto side = findSides(casters, light);
-  if (filters.empty()) return side;
-  const auto veiled = veiledComponents(casters, filters);
-  const auto all = findSides(casters, light, {.countEverySurface = true});
-  for (std::uint32_t t = 0; t < side.size(); ++t)
-    if (veiled[casters.componentOf[t]] != 0) side[t] = all[t];
-  return side;
-}
-
 void add(TintedEdge& edge, int sign, bool isVeil, const FilterSum& filter) {
   if (!isVeil) {
     edge.opaque += sign;
@@ -33,7 +23,8 @@ std::vector<std::uint8_t> veiledComponents(const CasterSet& casters, const Filte
 }
 
 TintedSilhouette findTintedSilhouette(const CasterSet& casters, const Filters& filters, const Vec4& light) {
-  TintedSilhouette silhouette{light, sidesThatCount(casters, filters, light), {}};
+  const auto veiled = veiledComponents(casters, filters);
+  TintedSilhouette silhouette{light, findSides(casters, light, {.alsoAverted = veiled}), {}};
   for (const CasterEdge& edge : casters.edges) {
     TintedEdge sum{edge.a, edge.b, 0, {}};
     for (std::uint32_t u = edge.begin; u < edge.end; ++u) {

@@ -14,7 +14,7 @@ struct Veil {
 
 /// The veils before what a camera sees.
 struct VeilBuffer {
-  std::vector<std::size_t>
+  std::vector<std::uint32_t>
       first;  ///< per pixel, row by row from the top: where its veils begin; one more. Empty: there are none at all
   std::vector<Veil> veils;  ///< of each pixel the nearest first
 

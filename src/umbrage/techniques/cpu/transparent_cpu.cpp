@@ -21,11 +21,11 @@ class TransparentCpu final : public shadow::Technique {
     UMBRAGE_CHECK(volumes_.has_value(), "shade() before prepare()");
     shadow::Shading out;
     shadow::PhaseClock clock(out.stats.phases);
-    if (auto done = volumes_->see(frame.camera, frame.veilLayers); !done) return tl::unexpected(done.error());
+    if (auto done = volumes_->see(frame.camera, frame.veilLayers, out.veils); !done)
+      return tl::unexpected(done.error());
     auto surface = volumes_->surface();
     if (!surface) return tl::unexpected(surface.error());
     out.surface = std::move(*surface);
-    out.veils = volumes_->veils();
     clock.end("surface");
     for (const scene::Light& light : frame.lights) {
       auto mask = volumes_->mask(frame.camera, light, out.veils, clock);

@@ -22,15 +22,15 @@ class Reach {
         facing_(surfaces(), Vec4(eye_, 1.0), towards_) {}
 
   /// Of a triangle at the depth where pixel (x, y) shows it.
-  [[nodiscard]] Vec3f at(int x, int y, std::uint32_t triangle, bool shadowed) {
-    if (triangle == shadow::kNoTriangle || !facing_.faces(triangle)) return Vec3f(0.0f);
+  [[nodiscard]] shadow::Tint at(int x, int y, std::uint32_t triangle, bool shadowed) {
+    if (triangle == shadow::kNoTriangle || !facing_.faces(triangle)) return {};
     const Vec3 ray = pixels_.through(x + 0.5, y + 0.5), normal = surfaces().normal(triangle);
     const double depth = glm::dot(normal, surfaces().corner(triangle, 0) - eye_) / glm::dot(normal, ray);
     const Vec3 point = eye_ + depth * ray;
-    if (!scene::insideCone(light_, point + surfaces().origin)) return Vec3f(0.0f);
-    if (!shadowed) return Vec3f(1.0f);
+    if (!scene::insideCone(light_, point + surfaces().origin)) return {};
+    if (!shadowed) return shadow::kFullTint;
     const auto taken = rays_.towards(towards_, point, triangle);
-    return taken ? shadow::transmitted(*taken) : Vec3f(0.0f);
+    return taken ? shadow::tintOf(shadow::transmitted(*taken)) : shadow::Tint{};
   }
 
  private:
@@ -86,7 +86,7 @@ Result<void> TransparentRays::look(const scene::Camera& camera, shadow::Shading&
   out.surface = {{camera.width, camera.height, shadow::kNoTriangle},
                  {camera.width, camera.height, std::numeric_limits<float>::infinity()}};
   struct Row {
-    std::vector<std::size_t> count;
+    std::vector<std::uint32_t> count;
     std::vector<shadow::Veil> veils;
   };
   std::vector<Row> rows(static_cast<std::size_t>(camera.height));
@@ -99,14 +99,14 @@ Result<void> TransparentRays::look(const scene::Camera& camera, shadow::Shading&
         out.surface.triangle(x, y) = hits.back().triangle, out.surface.depth(x, y) = float(hits.back().at);
         hits.pop_back();
       }
-      row.count.push_back(hits.size());
+      row.count.push_back(static_cast<std::uint32_t>(hits.size()));
       for (const trace::Hit& hit : hits) row.veils.push_back({hit.triangle, float(hit.at)});
     }
   });
   if (!done) return done;
   out.veils.first.assign(1, 0);
   for (const Row& row : rows) {
-    for (const std::size_t count : row.count) out.veils.first.push_back(out.veils.first.back() + count);
+    for (const std::uint32_t count : row.count) out.veils.first.push_back(out.veils.first.back() + count);
     out.veils.veils.insert(out.veils.veils.end(), row.veils.begin(), row.veils.end());
   }
   return {};
@@ -116,7 +116,7 @@ Result<shadow::LightMask> TransparentRays::maskOf(const shadow::Frame& frame, co
                                                   const shadow::Shading& seen) const {
   const int width = frame.camera.width, height = frame.camera.height;
   shadow::LightMask mask{
-      {width, height}, {width, height}, {width, height}, std::vector<Vec3f>(seen.veils.veils.size())};
+      {width, height}, {width, height}, {width, height}, std::vector<shadow::Tint>(seen.veils.veils.size())};
   Reach reach(*rays_, frame.camera, light);
   const std::size_t most =
       frame.veilLayers ? static_cast<std::size_t>(std::max(0, *frame.veilLayers)) : ~std::size_t{0};
@@ -129,7 +129,7 @@ Result<shadow::LightMask> TransparentRays::maskOf(const shadow::Frame& frame, co
       const std::size_t pixel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
       const auto veils = seen.veils.at(pixel);
-      Vec3f* out = veils.empty() ? nullptr : &mask.veils[seen.veils.first[pixel]];
+      shadow::Tint* out = veils.empty() ? nullptr : &mask.veils[seen.veils.first[pixel]];
       for (std::size_t k = 0; k < veils.size(); ++k)
         out[k] = most > 0 && k >= most ? out[most - 1] : reach.at(x, y, veils[k].triangle, most > 0);
     }

@@ -71,7 +71,7 @@ TEST(Transparent, PanesTakeTheirShareEach) {
         for (const char* name : {"transparent_cpu", "transparent_rays"}) {
           const auto shading = shade(name, b.scene, camera, {Light{scene::PointLight{{0.4, 0.3, 30}}}});
           // The middle of the picture shows the ground below the panes.
-          EXPECT_NEAR(shading.masks[0].tint(32, 24).x, std::pow(t, n), 1e-4)
+          EXPECT_NEAR(shadow::partsOf(shading.masks[0].tint(32, 24)).x, std::pow(t, n), 1e-4)
               << name << " " << t << " " << n << " " << eye.z;
         }
       }
@@ -86,9 +86,9 @@ struct Compared {
 /// Every surface that a pixel shows, by two techniques.
 Compared compare(const shadow::Shading& a, const shadow::Shading& truth) {
   Compared out;
-  const auto differ = [](const Vec3f& p, const Vec3f& q) {
-    const Vec3f d = glm::abs(p - q);
-    return std::max({d.x, d.y, d.z}) > 1.0f / 255.0f;
+  const auto differ = [](const shadow::Tint& p, const shadow::Tint& q) {
+    const Vec3 d = glm::abs(shadow::partsOf(p) - shadow::partsOf(q));
+    return std::max({d.x, d.y, d.z}) > 1.0 / 255.0;
   };
   for (std::size_t i = 0; i < truth.surface.triangle.size(); ++i) {
     ++out.pixels;

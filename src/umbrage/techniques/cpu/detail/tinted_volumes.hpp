@@ -18,11 +18,10 @@ class TintedVolumes {
  public:
   explicit TintedVolumes(std::shared_ptr<const shadow::Geometry> geometry);
 
-  /// What a camera sees, for the calls that follow. `veilLayers`: as Frame has it.
+  /// What a camera sees, for the calls that follow. `veilLayers`: as Frame has it. `veils`: becomes those of the picture.
   /// Errors: ErrorCode::device when memory runs out.
-  [[nodiscard]] Result<void> see(const scene::Camera& camera, std::optional<int> veilLayers);
+  [[nodiscard]] Result<void> see(const scene::Camera& camera, std::optional<int> veilLayers, shadow::VeilBuffer& veils);
   [[nodiscard]] Result<shadow::SurfaceBuffer> surface() const { return raster::surfaceBuffer(space_, seen_); }
-  [[nodiscard]] shadow::VeilBuffer veils() const { return raster::veilBuffer(space_, layers_); }
 
   /// `veils`: those of the picture. REQUIRES: see() for the same camera.
   [[nodiscard]] Result<shadow::LightMask> mask(const scene::Camera& camera, const scene::Light& light,
@@ -33,6 +32,7 @@ class TintedVolumes {
  private:
   class Painting;
   [[nodiscard]] Result<void> findReceivers(FacingMemo& facing);
+  void findCrossings();
 
   std::shared_ptr<const shadow::Geometry> geometry_;
   std::vector<std::uint32_t> casterOf_;  ///< per triangle of the surfaces
@@ -42,13 +42,15 @@ class TintedVolumes {
   raster::PixelSpace space_;
   raster::SeenPositions positions_;
   raster::SeenBlocks seen_;
-  raster::LayeredBlocks layers_;
+  raster::VeilLayers layers_;
   std::size_t litLayers_ = 0;             ///< so many of a pixel's veils are lit by themselves
   std::vector<std::int8_t> eyeSide_;      ///< per caster triangle that is a veil: lightSide of the eye
   std::vector<std::uint32_t> invisible_;  ///< caster triangles in whose plane the eye lies
   shadow::TintedSilhouette silhouette_;
-  std::vector<std::uint64_t> receivers_;  ///< per layer
-  std::vector<raster::LayerSums> results_;
+  std::vector<shadow::FilterSum>
+      crossing_;  ///< per triangle of the surfaces that is a veil and casts; of all others nothing
+  std::vector<std::uint64_t> receivers_;  ///< per surface of a block
+  raster::TintField field_;
 };
 
 }  // namespace umbrage::techniques::detail
