@@ -23,8 +23,9 @@ struct Choice {
   std::string renderer;
 };
 
-Choice chooseAutomatically(bool veils) {
-  if (veils) return {"transparent_cpu", "auto: there are surfaces that let light through", ""};
+Choice chooseAutomatically(Needs needs) {
+  if (needs.soft) return {"soft_cpu", "auto: there are lights with an extent", ""};
+  if (needs.tinted) return {"transparent_cpu", "auto: there are surfaces that let light through", ""};
   const Graphics graphics = findGraphics();
   if (graphics.renderer.empty()) return {"hybrid_cpu", fmt::format("auto: no graphics ({})", graphics.reason), ""};
   if (graphics.software)
@@ -54,8 +55,8 @@ Result<std::string> parseTechnique(const std::string& word) {
   return fail(ErrorCode::usage, fmt::format("there is no technique '{}'; there are {}", word, names));
 }
 
-Result<Chosen> chooseTechnique(const std::string& name, bool veils) {
-  const Choice choice = name == "auto" ? chooseAutomatically(veils) : Choice{name, "as asked", ""};
+Result<Chosen> chooseTechnique(const std::string& name, Needs needs) {
+  const Choice choice = name == "auto" ? chooseAutomatically(needs) : Choice{name, "as asked", ""};
   const auto entries = allTechniques();
   const auto* entry = find(entries, choice.name);
   if (entry == nullptr) return fail(ErrorCode::usage, fmt::format("there is no technique '{}'", choice.name));

@@ -16,6 +16,7 @@ namespace {
 // The truth, without and with surfaces that let light through.
 constexpr const char* kTruth = "ray_traced";
 constexpr const char* kTintedTruth = "transparent_rays";
+constexpr const char* kSoftTruth = "soft_rays";
 
 struct CompareOptions {
   SceneOptions scene;
@@ -88,7 +89,9 @@ Result<void> checkPicture(const std::string& path, const std::string& scene) {
   return checkOutputs({path}, scene);
 }
 
-const char* truthFor(const Drawing& drawing) { return drawing.traits.tinted ? kTintedTruth : kTruth; }
+const char* truthFor(const Drawing& drawing) {
+  return drawing.traits.soft ? kSoftTruth : drawing.traits.tinted ? kTintedTruth : kTruth;
+}
 
 Result<shadow::EdgeFinder> edgeFinderFor(const std::shared_ptr<const shadow::Geometry>& geometry,
                                          const std::string& name) {

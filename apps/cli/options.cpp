@@ -39,6 +39,13 @@ auto degreesIn(double low, double high) {
   return [low, high](const std::string& word) { return parseDegrees(word, low, high); };
 }
 
+Result<std::size_t> parseSamples(std::string_view word) {
+  const auto number = parseNumber(word, 1, 65536);
+  if (!number || *number != std::floor(*number))
+    return fail(ErrorCode::usage, "must be a whole number from 1 to 65536");
+  return static_cast<std::size_t>(*number);
+}
+
 Result<std::optional<int>> parseVeilLayers(std::string_view word) {
   if (word == "all") return std::optional<int>();
   const auto number = parseNumber(word, 0, 1000);
@@ -92,11 +99,19 @@ void addCameraOptions(CLI::App& app, ViewOptions& options) {
 }
 
 void addLightOptions(CLI::App& app, ViewOptions& options) {
-  addValues(
-      app, "--light", "SPEC",
-      "point:x,y,z, directional:dx,dy,dz (the way the light travels) or spot:x,y,z,dx,dy,dz,CUTOFF_DEG, each with an "
-      "optional ,#rrggbb[,intensity]; repeatable (default: the file's lights, else a sun)",
-      options.lights, parseLight, kPicture);
+  addValues(app, "--light", "SPEC",
+            "point:x,y,z, directional:dx,dy,dz (the way the light travels), spot:x,y,z,dx,dy,dz,CUTOFF_DEG; with soft "
+            "shadows disc:x,y,z,dx,dy,dz,RADIUS, "
+            "rect:x,y,z,ux,uy,uz,vx,vy,vz (centre and half sides; shines along u x v), sphere:x,y,z,RADIUS, "
+            "sun:dx,dy,dz,DIAMETER_DEG; each with an "
+            "optional ,#rrggbb[,intensity]; repeatable (default: the file's lights, else a sun)",
+            options.lights, parseLight, kPicture);
+  addValue(app, "--samples", "N", "So many points of each light with an extent, 1 to 65536 (default 64)",
+           options.soft.samples, parseSamples, kPicture);
+  addValue(
+      app, "--soft-error", "E",
+      "Takes no more points than it needs for an estimated error of E, for example 0.01 (default 0: all)",
+      options.soft.enough, [](std::string_view word) { return parseNumber(word, 0.0, 1.0); }, kPicture);
 }
 
 void addGroundOption(CLI::App& app, ViewOptions& options) {

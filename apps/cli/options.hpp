@@ -55,6 +55,7 @@ struct ViewOptions {
   shadow::VolumeFill fill = shadow::VolumeFill::reduced;
   shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
   std::optional<int> veilLayers;
+  shadow::SoftSampling soft;
 };
 void addCameraOptions(CLI::App& app, ViewOptions& options);
 void addLightOptions(CLI::App& app, ViewOptions& options);
@@ -73,6 +74,7 @@ struct View {
   shadow::VolumeFill fill = shadow::VolumeFill::reduced;
   shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
   std::optional<int> veilLayers = {};
+  shadow::SoftSampling soft = {};
   bool detailed = false;  ///< statistics that take time of their own are wanted
   std::string cameraReason;
   std::string lightReason;

@@ -75,6 +75,7 @@ Result<View> makeView(scene::Scene scene, const ViewOptions& options) {
   view.fill = options.fill;
   view.extrusion = options.extrusion;
   view.veilLayers = options.veilLayers;
+  view.soft = options.soft;
   // Framed before the ground is added: the ground is 64 times as large as the scene.
   const auto camera = makeCamera(scene, options);
   if (!camera) return tl::unexpected(camera.error());

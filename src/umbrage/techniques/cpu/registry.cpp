@@ -2,6 +2,7 @@
 
 #include "umbrage/techniques/cpu/detail/hybrid_cpu.hpp"
 #include "umbrage/techniques/cpu/detail/ray_traced.hpp"
+#include "umbrage/techniques/cpu/detail/soft.hpp"
 #include "umbrage/techniques/cpu/detail/transparent_cpu.hpp"
 #include "umbrage/techniques/cpu/detail/transparent_rays.hpp"
 #include "umbrage/techniques/cpu/detail/zpass_cpu.hpp"
@@ -13,7 +14,13 @@ std::vector<shadow::TechniqueEntry> cpuTechniques() {
           {detail::zpassCpuTraits(), detail::makeZPassCpu},
           {detail::hybridCpuTraits(), detail::makeHybridCpu},
           {detail::transparentCpuTraits(), detail::makeTransparentCpu},
-          {detail::transparentRaysTraits(), detail::makeTransparentRays}};
+          {detail::transparentRaysTraits(), detail::makeTransparentRays},
+          detail::softTechnique({"soft_cpu",
+                                 "Soft shadows of lights with an extent, coloured ones too: the mean of exact hard "
+                                 "shadows, on the processor.",
+                                 detail::makeHybridCpu, detail::makeTransparentCpu}),
+          detail::softTechnique({"soft_rays", "The same by rays alone: the truth for soft_cpu, given samples enough.",
+                                 detail::makeRayTraced, detail::makeTransparentRays})};
 }
 
 }  // namespace umbrage::techniques
