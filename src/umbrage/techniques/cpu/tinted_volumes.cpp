@@ -186,7 +186,7 @@ class TintedVolumes::Painting {
   [[nodiscard]] shadow::Tint remaining(const shadow::FilterSum& taken) {
     const auto mixed = static_cast<std::uint32_t>(taken[0] * 3 + taken[1] * 5 + taken[2] * 7) * 0x9E3779B1u;
     Known& known = known_[mixed >> 26];
-    if (known.taken != taken) known = {taken, shadow::tintOf(shadow::transmitted(taken))};
+    if (known.taken != taken) known = {taken, shadow::tintOf(volumes_.geometry_->filters.transmitted(taken))};
     return known.tint;
   }
 

@@ -30,7 +30,7 @@ class Reach {
     if (!scene::insideCone(light_, point + surfaces().origin)) return {};
     if (!shadowed) return shadow::kFullTint;
     const auto taken = rays_.towards(towards_, point, triangle);
-    return taken ? shadow::tintOf(shadow::transmitted(*taken)) : shadow::Tint{};
+    return taken ? shadow::tintOf(rays_.geometry().filters.transmitted(*taken)) : shadow::Tint{};
   }
 
  private:
