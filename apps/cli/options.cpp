@@ -138,6 +138,10 @@ void addVeilOption(CLI::App& app, ViewOptions& options) {
            "So many surfaces of a pixel that let light through, the nearest, have the shadows of others on them; 0: "
            "none (faster; default all)",
            options.veilLayers, parseVeilLayers, kPicture);
+  addValue(
+      app, "--see-through", "OPACITY",
+      "Every surface of the scene is at most so opaque, for example 0.3: its shadow shows what is inside",
+      options.seeThrough, [](std::string_view word) { return parseNumber(word, 0.0, 1.0); }, kPicture);
 }
 
 }  // namespace umbrage::cli

@@ -55,6 +55,7 @@ struct ViewOptions {
   shadow::VolumeFill fill = shadow::VolumeFill::reduced;
   shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
   std::optional<int> veilLayers;
+  std::optional<double> seeThrough;
   shadow::SoftSampling soft;
 };
 void addCameraOptions(CLI::App& app, ViewOptions& options);
