@@ -21,8 +21,7 @@ std::vector<Pixel> suspects(const shadow::LightMask& mask, const shadow::LightMa
   std::vector<Pixel> pixels;
   for (int y = 0; y < edges.height(); ++y)
     for (int x = 0; x < edges.width(); ++x) {
-      const bool same = mask.covered(x, y) == reference.covered(x, y) && mask.light(x, y) == reference.light(x, y);
-      if (!same && !edgeNear(edges, {x, y}, tolerance)) pixels.emplace_back(x, y);
+      if (shadow::differAt(mask, reference, x, y) && !edgeNear(edges, {x, y}, tolerance)) pixels.emplace_back(x, y);
     }
   return pixels;
 }

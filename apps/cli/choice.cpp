@@ -23,12 +23,15 @@ struct Choice {
   std::string renderer;
 };
 
-Choice chooseAutomatically() {
+Choice chooseAutomatically(Needs needs) {
+  if (needs.soft) return {"soft_cpu", "auto: there are lights with an extent", ""};
+  if (needs.tinted) return {"transparent_cpu", "auto: there are surfaces that let light through", ""};
   const Graphics graphics = findGraphics();
   if (graphics.renderer.empty()) return {"hybrid_cpu", fmt::format("auto: no graphics ({})", graphics.reason), ""};
   if (graphics.software)
     return {"hybrid_cpu",
-            fmt::format("auto: no GPU, and our own rasteriser is faster than OpenGL on the processor ({})", graphics.renderer),
+            fmt::format("auto: no GPU, and our own rasteriser is faster than OpenGL on the processor ({})",
+                        graphics.renderer),
             graphics.renderer};
   return {"zpass", fmt::format("auto: shadow volumes on the GPU ({})", graphics.renderer), graphics.renderer};
 }
@@ -52,8 +55,8 @@ Result<std::string> parseTechnique(const std::string& word) {
   return fail(ErrorCode::usage, fmt::format("there is no technique '{}'; there are {}", word, names));
 }
 
-Result<Chosen> chooseTechnique(const std::string& name) {
-  const Choice choice = name == "auto" ? chooseAutomatically() : Choice{name, "as asked", ""};
+Result<Chosen> chooseTechnique(const std::string& name, Needs needs) {
+  const Choice choice = name == "auto" ? chooseAutomatically(needs) : Choice{name, "as asked", ""};
   const auto entries = allTechniques();
   const auto* entry = find(entries, choice.name);
   if (entry == nullptr) return fail(ErrorCode::usage, fmt::format("there is no technique '{}'", choice.name));

@@ -18,9 +18,15 @@ struct Chosen {
   std::string renderer;  ///< the GL renderer string, where graphics were looked for; else empty
 };
 
-/// By name, or "auto": zpass on a GPU, else ray_traced. Errors: usage for an unknown name, device for one that cannot
-/// run here.
-[[nodiscard]] Result<Chosen> chooseTechnique(const std::string& name);
+/// What a picture asks of its technique.
+struct Needs {
+  bool tinted = false;  ///< there are surfaces that let light through
+  bool soft = false;    ///< there are lights with an extent
+};
+
+/// By name, or "auto": soft_cpu or transparent_cpu where they are needed, else zpass on a GPU and hybrid_cpu without one.
+/// Errors: usage for an unknown name, device for one that cannot run here.
+[[nodiscard]] Result<Chosen> chooseTechnique(const std::string& name, Needs needs = {});
 
 /// A name of a technique, or "auto".
 [[nodiscard]] Result<std::string> parseTechnique(const std::string& word);

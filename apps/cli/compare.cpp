@@ -13,13 +13,16 @@
 namespace umbrage::cli {
 namespace {
 
+// The truth, without and with surfaces that let light through.
 constexpr const char* kTruth = "ray_traced";
+constexpr const char* kTintedTruth = "transparent_rays";
+constexpr const char* kSoftTruth = "soft_rays";
 
 struct CompareOptions {
   SceneOptions scene;
   ViewOptions view;
   std::string technique;
-  std::string against = kTruth;
+  std::string against;  ///< empty: the truth
   std::string picture;
   bool json = false;
 };
@@ -86,8 +89,13 @@ Result<void> checkPicture(const std::string& path, const std::string& scene) {
   return checkOutputs({path}, scene);
 }
 
-Result<shadow::EdgeFinder> edgeFinderFor(const std::shared_ptr<const shadow::Geometry>& geometry) {
-  auto truth = chooseTechnique(kTruth);
+const char* truthFor(const Drawing& drawing) {
+  return drawing.traits.soft ? kSoftTruth : drawing.traits.tinted ? kTintedTruth : kTruth;
+}
+
+Result<shadow::EdgeFinder> edgeFinderFor(const std::shared_ptr<const shadow::Geometry>& geometry,
+                                         const std::string& name) {
+  auto truth = chooseTechnique(name);
   if (!truth) return tl::unexpected(truth.error());
   if (const auto prepared = truth->technique->prepare(geometry); !prepared) return tl::unexpected(prepared.error());
   return shadow::EdgeFinder(geometry, std::move(truth->technique));
@@ -96,9 +104,9 @@ Result<shadow::EdgeFinder> edgeFinderFor(const std::shared_ptr<const shadow::Geo
 // The truth is the reference where it is one of the two, so that a lone wrong pixel is no edge of its own.
 Result<std::vector<Agreement>> compareDrawings(const Drawing& a, const Drawing& b, const View& view,
                                                const std::shared_ptr<const shadow::Geometry>& geometry) {
-  const auto edges = edgeFinderFor(geometry);
+  const auto edges = edgeFinderFor(geometry, truthFor(a));
   if (!edges) return tl::unexpected(edges.error());
-  const bool swapped = a.traits.name == kTruth;
+  const bool swapped = a.traits.name == truthFor(a);
   const int tolerance = std::max(a.traits.edgeTolerancePx, b.traits.edgeTolerancePx);
   return compareMasks((swapped ? b : a).shading.masks, (swapped ? a : b).shading.masks, {view.camera, view.lights},
                       tolerance, *edges);
@@ -113,8 +121,12 @@ Result<Outcome> run(const CompareOptions& options, const Console& console) {
   const auto geometry = shadow::makeGeometry(view->scene);
   const auto a = draw(options.technique, geometry, *view, console);
   if (!a) return tl::unexpected(a.error());
-  const auto b = draw(options.against, geometry, *view, console);
+  const auto b = draw(options.against.empty() ? truthFor(*a) : options.against, geometry, *view, console);
   if (!b) return tl::unexpected(b.error());
+  if (!geometry->filters.empty() && a->traits.tinted != b->traits.tinted)
+    return fail(ErrorCode::usage,
+                fmt::format("{} sees through surfaces that let light through, {} does not: they show different things",
+                            (a->traits.tinted ? a : b)->traits.name, (a->traits.tinted ? b : a)->traits.name));
   if (const auto written = writePicture(options.picture, *a, *b); !written) return tl::unexpected(written.error());
   auto lights = compareDrawings(*a, *b, *view, geometry);
   if (!lights) return tl::unexpected(lights.error());
@@ -130,7 +142,8 @@ Run addCompare(CLI::App& app) {
   addSceneOptions(app, options->scene);
   addValue(app, "--technique", "A", "The technique to judge (see umbrage techniques)", options->technique,
            parseTechnique, {.required = true});
-  addValue(app, "--against", "B", "The technique to compare it with (default ray_traced)", options->against,
+  addValue(app, "--against", "B",
+           "The technique to compare it with (default: the truth, ray_traced or transparent_rays)", options->against,
            parseTechnique);
   addWord(app, "-o,--output", "OUT.png", "A picture of the differences, in red", options->picture);
   addFlag(app, "--json", "As JSON", options->json);
@@ -138,6 +151,7 @@ Run addCompare(CLI::App& app) {
   addLightOptions(app, options->view);
   addGroundOption(app, options->view);
   addSilhouetteOption(app, options->view);
+  addVeilOption(app, options->view);
   return [options](const Console& console) { return run(*options, console); };
 }
 

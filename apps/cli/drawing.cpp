@@ -1,5 +1,6 @@
 #include "drawing.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -11,9 +12,14 @@ Result<Drawing> draw(const std::string& technique, const std::shared_ptr<const s
   const Stage stage(console, fmt::format("shading with {}", technique));
   Drawing drawing;
   Stopwatch watch;
-  auto chosen = chooseTechnique(technique);
+  auto chosen =
+      chooseTechnique(technique, {!geometry->filters.empty(), std::ranges::any_of(view.lights, scene::isArea)});
   if (!chosen) return tl::unexpected(chosen.error());
   drawing.traits = chosen->technique->traits();
+  if (!drawing.traits.soft && std::ranges::any_of(view.lights, scene::isArea))
+    return fail(ErrorCode::usage,
+                fmt::format("{} knows no lights with an extent (soft shadows): use soft_cpu, soft_rays or auto",
+                            drawing.traits.name));
   drawing.reason = chosen->reason;
   drawing.renderer = chosen->renderer;
   drawing.createMs = watch.lap();
@@ -24,6 +30,8 @@ Result<Drawing> draw(const std::string& technique, const std::shared_ptr<const s
                                            .silhouettes = view.silhouettes,
                                            .fill = view.fill,
                                            .extrusion = view.extrusion,
+                                           .veilLayers = view.veilLayers,
+                                           .soft = view.soft,
                                            .detailed = view.detailed});
   if (!shading) return tl::unexpected(shading.error());
   drawing.shadeMs = watch.lap();

@@ -53,6 +53,7 @@ Info gather(const scene::Scene& scene) {
 }
 
 const char* shapeName(const scene::Light& light) {
+  if (scene::isArea(light)) return "area";  // no file has them yet
   if (std::holds_alternative<scene::PointLight>(light.shape)) return "point";
   return std::holds_alternative<scene::DirectionalLight>(light.shape) ? "directional" : "spot";
 }

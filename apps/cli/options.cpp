@@ -1,5 +1,7 @@
 #include "options.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace umbrage::cli {
@@ -37,6 +39,21 @@ auto degreesIn(double low, double high) {
   return [low, high](const std::string& word) { return parseDegrees(word, low, high); };
 }
 
+Result<std::size_t> parseSamples(std::string_view word) {
+  const auto number = parseNumber(word, 1, 65536);
+  if (!number || *number != std::floor(*number))
+    return fail(ErrorCode::usage, "must be a whole number from 1 to 65536");
+  return static_cast<std::size_t>(*number);
+}
+
+Result<std::optional<int>> parseVeilLayers(std::string_view word) {
+  if (word == "all") return std::optional<int>();
+  const auto number = parseNumber(word, 0, 1000);
+  if (!number || *number != std::floor(*number))
+    return fail(ErrorCode::usage, "must be a whole number from 0 to 1000, or all");
+  return std::optional(static_cast<int>(*number));
+}
+
 }  // namespace
 
 void addSceneOptions(CLI::App& app, SceneOptions& options) {
@@ -57,8 +74,8 @@ void addSceneOptions(CLI::App& app, SceneOptions& options) {
   addValue(app, "--lod", "LOD", "Level of detail of a CityJSON file (default: the highest)", options.lod, parseWord,
            kScene);
   addValue(app, "--crs", "EPSG:CODE|local",
-           "What the coordinates are, instead of what the file says; local: metres of no place in particular", options.crs,
-           parseWord, kScene);
+           "What the coordinates are, instead of what the file says; local: metres of no place in particular",
+           options.crs, parseWord, kScene);
   addValue(app, "--height-property", "NAME", "Footprints: the property that is the height, in metres",
            options.heightProperty, parseWord, kScene);
   addValue(app, "--default-height", "M", "Footprints: the height of those that have none", options.defaultHeight,
@@ -82,11 +99,19 @@ void addCameraOptions(CLI::App& app, ViewOptions& options) {
 }
 
 void addLightOptions(CLI::App& app, ViewOptions& options) {
-  addValues(
-      app, "--light", "SPEC",
-      "point:x,y,z, directional:dx,dy,dz (the way the light travels) or spot:x,y,z,dx,dy,dz,CUTOFF_DEG, each with an "
-      "optional ,#rrggbb[,intensity]; repeatable (default: the file's lights, else a sun)",
-      options.lights, parseLight, kPicture);
+  addValues(app, "--light", "SPEC",
+            "point:x,y,z, directional:dx,dy,dz (the way the light travels), spot:x,y,z,dx,dy,dz,CUTOFF_DEG; with soft "
+            "shadows disc:x,y,z,dx,dy,dz,RADIUS, "
+            "rect:x,y,z,ux,uy,uz,vx,vy,vz (centre and half sides; shines along u x v), sphere:x,y,z,RADIUS, "
+            "sun:dx,dy,dz,DIAMETER_DEG; each with an "
+            "optional ,#rrggbb[,intensity]; repeatable (default: the file's lights, else a sun)",
+            options.lights, parseLight, kPicture);
+  addValue(app, "--samples", "N", "So many points of each light with an extent, 1 to 65536 (default 64)",
+           options.soft.samples, parseSamples, kPicture);
+  addValue(
+      app, "--soft-error", "E",
+      "Takes no more points than it needs for an estimated error of E, for example 0.01 (default 0: all)",
+      options.soft.enough, [](std::string_view word) { return parseNumber(word, 0.0, 1.0); }, kPicture);
 }
 
 void addGroundOption(CLI::App& app, ViewOptions& options) {
@@ -96,14 +121,27 @@ void addGroundOption(CLI::App& app, ViewOptions& options) {
 }
 
 void addSilhouetteOption(CLI::App& app, ViewOptions& options) {
-  addValue(app, "--silhouette", "NAME|auto", "How shadow volumes find their silhouettes; changes times, no pixel (default auto)",
-           options.silhouettes, parseFinder, kPicture);
+  addValue(app, "--silhouette", "NAME|auto",
+           "How shadow volumes find their silhouettes; changes times, no pixel (default auto)", options.silhouettes,
+           parseFinder, kPicture);
   addValue(app, "--volume-fill", "reduced|plain",
-           "Whether shadow volumes leave out what changes no pixel; changes times, no pixel (default reduced)", options.fill,
-           parseFill, kPicture);
+           "Whether shadow volumes leave out what changes no pixel; changes times, no pixel (default reduced)",
+           options.fill, parseFill, kPicture);
   addValue(app, "--extrude", "cpu|vertex|geometry",
-           "Who carries shadow volumes away from the light: the processor, a vertex or a geometry shader; changes times, no pixel (default vertex)",
+           "Who carries shadow volumes away from the light: the processor, a vertex or a geometry shader; changes "
+           "times, no pixel (default vertex)",
            options.extrusion, parseExtrusion, kPicture);
+}
+
+void addVeilOption(CLI::App& app, ViewOptions& options) {
+  addValue(app, "--veil-layers", "N|all",
+           "So many surfaces of a pixel that let light through, the nearest, have the shadows of others on them; 0: "
+           "none (faster; default all)",
+           options.veilLayers, parseVeilLayers, kPicture);
+  addValue(
+      app, "--see-through", "OPACITY",
+      "Every surface of the scene is at most so opaque, for example 0.3: its shadow shows what is inside",
+      options.seeThrough, [](std::string_view word) { return parseNumber(word, 0.0, 1.0); }, kPicture);
 }
 
 }  // namespace umbrage::cli

@@ -54,12 +54,17 @@ struct ViewOptions {
   shadow::FinderKind silhouettes = shadow::FinderKind::automatic;
   shadow::VolumeFill fill = shadow::VolumeFill::reduced;
   shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
+  std::optional<int> veilLayers;
+  std::optional<double> seeThrough;
+  shadow::SoftSampling soft;
 };
 void addCameraOptions(CLI::App& app, ViewOptions& options);
 void addLightOptions(CLI::App& app, ViewOptions& options);
 void addGroundOption(CLI::App& app, ViewOptions& options);
 /// --silhouette, for commands that draw with techniques of shadow volumes.
 void addSilhouetteOption(CLI::App& app, ViewOptions& options);
+/// --veil-layers, for those that draw what lets light through.
+void addVeilOption(CLI::App& app, ViewOptions& options);
 
 /// The scene as it is drawn, and why it is looked at and lit so.
 struct View {
@@ -69,6 +74,8 @@ struct View {
   shadow::FinderKind silhouettes = shadow::FinderKind::automatic;
   shadow::VolumeFill fill = shadow::VolumeFill::reduced;
   shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
+  std::optional<int> veilLayers = {};
+  shadow::SoftSampling soft = {};
   bool detailed = false;  ///< statistics that take time of their own are wanted
   std::string cameraReason;
   std::string lightReason;

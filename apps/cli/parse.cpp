@@ -49,21 +49,40 @@ struct LightKind {
   std::size_t count;
   std::string_view form;
 };
-constexpr std::array<LightKind, 3> kLightKinds{{{"point", 3, "point:x,y,z"},
+constexpr std::array<LightKind, 7> kLightKinds{{{"point", 3, "point:x,y,z"},
                                                 {"directional", 3, "directional:dx,dy,dz"},
-                                                {"spot", 7, "spot:x,y,z,dx,dy,dz,CUTOFF_DEG"}}};
+                                                {"spot", 7, "spot:x,y,z,dx,dy,dz,CUTOFF_DEG"},
+                                                {"disc", 7, "disc:x,y,z,dx,dy,dz,RADIUS"},
+                                                {"rect", 9, "rect:x,y,z,ux,uy,uz,vx,vy,vz"},
+                                                {"sphere", 4, "sphere:x,y,z,RADIUS"},
+                                                {"sun", 4, "sun:dx,dy,dz,DIAMETER_DEG"}}};
 constexpr std::string_view kLightForms =
-    "point:x,y,z, directional:dx,dy,dz or spot:x,y,z,dx,dy,dz,CUTOFF_DEG, each with an optional ,#rrggbb[,intensity]";
+    "point:x,y,z, directional:dx,dy,dz, spot:x,y,z,dx,dy,dz,CUTOFF_DEG, disc:x,y,z,dx,dy,dz,RADIUS, "
+    "rect:x,y,z,ux,uy,uz,vx,vy,vz, sphere:x,y,z,RADIUS or "
+    "sun:dx,dy,dz,DIAMETER_DEG, each with an optional ,#rrggbb[,intensity]";
 
 using Shape = decltype(scene::Light::shape);
+
+// Of lights with an extent: that they have one.
+Result<Shape> checked(std::string_view text, Shape shape) {
+  if (scene::isValid({shape})) return shape;
+  return fail(ErrorCode::usage, fmt::format("'{}' has no extent: a radius or diameter must be above 0 (a sun's below "
+                                            "180 degrees), and a rectangle's half sides not in line",
+                                            text));
+}
 
 Result<Shape> makeShape(std::string_view text, std::string_view kind, const std::vector<double>& v) {
   const Vec3 first(v[0], v[1], v[2]);
   if (kind == "point") return Shape(scene::PointLight{first});
-  const Vec3 direction = kind == "spot" ? Vec3(v[3], v[4], v[5]) : first;
+  if (kind == "sphere") return checked(text, scene::SphereLight{first, v[3]});
+  if (kind == "rect")
+    return checked(text, scene::RectangleLight{first, Vec3(v[3], v[4], v[5]), Vec3(v[6], v[7], v[8])});
+  const Vec3 direction = kind == "spot" || kind == "disc" ? Vec3(v[3], v[4], v[5]) : first;
   if (direction == Vec3(0.0))
     return fail(ErrorCode::usage, fmt::format("'{}' has no direction: 0,0,0 points nowhere", text));
   if (kind == "directional") return Shape(scene::DirectionalLight{direction});
+  if (kind == "disc") return checked(text, scene::DiscLight{first, direction, v[6]});
+  if (kind == "sun") return checked(text, scene::SunLight{direction, Angle::degrees(v[3] / 2)});
   if (!(v[6] > 0.0 && v[6] <= 180.0))
     return fail(ErrorCode::usage,
                 fmt::format("'{}' has a cutoff of {} degrees; it must be above 0 and at most 180", text, v[6]));
@@ -161,10 +180,6 @@ Result<Vec3> parseColour(std::string_view text) {
 Result<scene::Light> parseLight(std::string_view text) {
   const auto colon = text.find(':');
   const auto name = text.substr(0, colon);
-  if (name == "disc" || name == "rect")
-    return fail(ErrorCode::usage, fmt::format("'{}': this version has no technique for area lights (soft shadows); "
-                                              "use point, directional or spot",
-                                              text));
   const auto* kind =
       std::find_if(kLightKinds.begin(), kLightKinds.end(), [&](const LightKind& k) { return k.name == name; });
   if (colon == std::string_view::npos || kind == kLightKinds.end())

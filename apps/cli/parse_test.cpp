@@ -89,8 +89,15 @@ TEST(ParseLight, RefusesWithARemedy) {
                            "point:1,2,3,#ffffff,inf", "point:1,2,3,#ffffff,1,2", "point 1,2,3"})
     EXPECT_FALSE(parseLight(word)) << word;
   EXPECT_THAT(messageOf(parseLight("sun:1,2,3")), HasSubstr("directional:dx,dy,dz"));
-  EXPECT_THAT(messageOf(parseLight("disc:0,0,5,0,0,-1,0.5")), HasSubstr("area lights"));
-  EXPECT_THAT(messageOf(parseLight("rect:0,0,5,1,0,0,0,1,0")), HasSubstr("area lights"));
+  EXPECT_THAT(messageOf(parseLight("sphere:0,0,5,-1")), HasSubstr("no extent"));
+}
+
+TEST(ParseLight, KnowsLightsWithAnExtent) {
+  EXPECT_EQ(std::get<scene::DiscLight>(parseLight("disc:0,0,5,0,0,-1,0.5")->shape).radius, 0.5);
+  EXPECT_EQ(std::get<scene::RectangleLight>(parseLight("rect:0,0,5,1,0,0,0,-2,0,#ffffff,0.5")->shape).v,
+            Vec3(0, -2, 0));
+  EXPECT_EQ(std::get<scene::SphereLight>(parseLight("sphere:0,0,5,0.25")->shape).radius, 0.25);
+  EXPECT_NEAR(std::get<scene::SunLight>(parseLight("sun:1,0,-1,0.533")->shape).radius.degrees(), 0.2665, 1e-12);
 }
 
 TEST(ParseWords, AllowsOnlyWhatIsKnown) {

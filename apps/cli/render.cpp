@@ -49,8 +49,10 @@ std::vector<Output> outputs(const RenderOptions& options, const image::RgbImage&
   const auto& masks = stats.drawing.shading.masks;
   const auto files = options.mask.empty() ? std::vector<std::string>() : maskFiles(options.mask, masks.size());
   for (std::size_t i = 0; i < files.size(); ++i)
-    list.push_back(
-        {files[i], [&mask = masks[i]](const std::string& path) { return png::write(path, shadow::fileImage(mask)); }});
+    list.push_back({files[i], [&mask = masks[i]](const std::string& path) {
+                      return mask.tint.empty() ? png::write(path, shadow::fileImage(mask))
+                                               : png::write(path, shadow::tintedFileImage(mask));
+                    }});
   if (!options.stats.empty())
     list.push_back({options.stats, [&stats](const std::string& path) { return writeFile(path, statsJson(stats)); }});
   return list;
@@ -59,8 +61,8 @@ std::vector<Output> outputs(const RenderOptions& options, const image::RgbImage&
 /// The picture of one drawing.
 Result<image::RgbImage> paint(const RenderOptions& options, const View& view, const shadow::Geometry& geometry,
                               const Drawing& drawing) {
-  auto picture = shadow::composite(view.scene, geometry.surfaces, view.camera, drawing.shading.surface, view.lights,
-                                   drawing.shading.masks, {.ambient = options.view.ambient});
+  auto picture = shadow::composite(view.scene, geometry.surfaces, view.camera, drawing.shading, view.lights,
+                                   {.ambient = options.view.ambient});
   if (options.show.empty()) return picture;
   return drawOver(picture, options.show, geometry, {view.camera, view.lights});
 }
@@ -130,7 +132,9 @@ Run addRender(CLI::App& app) {
   addSceneOptions(app, options->scene);
   addWord(app, "-o,--output", "OUT.png", "The picture", options->picture);
   addWord(app, "--mask", "MASK.png",
-          "The light mask: 255 lit, 0 not, 128 no surface; with several lights MASK-0.png, ...", options->mask);
+          "The light mask: 255 lit, 0 not, 128 no surface, in colours behind what lets light through; with several "
+          "lights MASK-0.png, ...",
+          options->mask);
   addWord(app, "--stats", "STATS.json", "What was done, why, and how long it took", options->stats);
   addValue(app, "--technique", "NAME|auto", "How shadows are computed (see umbrage techniques; default auto)",
            options->technique, parseTechnique);
@@ -144,6 +148,7 @@ Run addRender(CLI::App& app) {
   addLightOptions(app, options->view);
   addGroundOption(app, options->view);
   addSilhouetteOption(app, options->view);
+  addVeilOption(app, options->view);
   return [options](const Console& console) { return run(*options, console); };
 }
 

@@ -63,6 +63,14 @@ Json choicesJson(const std::vector<shadow::CasterChoice>& choices, const std::ve
   return list;
 }
 
+Json softJson(const std::optional<shadow::SoftStats>& soft) {
+  if (!soft) return nullptr;
+  return {{"samples", soft->samples},
+          {"estimated_error", soft->error},
+          {"umbra_pixels", soft->umbra},
+          {"penumbra_pixels", soft->penumbra}};
+}
+
 Json lightJson(const scene::Light& light, const shadow::LightStats& stats, const shadow::LightMask& mask,
                const std::vector<std::string_view>& parts) {
   return {{"light", light.name},
@@ -81,6 +89,7 @@ Json lightJson(const scene::Light& light, const shadow::LightStats& stats, const
             {"casters_behind", stats.castersBehind},
             {"sides_behind", stats.sidesBehind}}},
           {"endless_casters", stats.endlessCasters},
+          {"soft", softJson(stats.soft)},
           {"lit_pixels", litPixels(mask)}};
 }
 
@@ -135,7 +144,8 @@ std::string statsText(const Stats& stats) {
                       stats.geometry.casters.edges.size());
   for (const auto& light : stats.drawing.shading.stats.lights)
     if (!light.finder.empty())
-      text += fmt::format("silhouette {} of {} tested edges ({})\n", light.silhouetteEdges, light.edgesTested, light.finder);
+      text += fmt::format("silhouette {} of {} tested edges ({})\n", light.silhouetteEdges, light.edgesTested,
+                          light.finder);
   for (const auto& light : stats.drawing.shading.stats.lights)
     if (light.volumeFragments)
       text += fmt::format("volumes    {} triangles, {} pixels filled\n", light.volumeTriangles, *light.volumeFragments);

@@ -4,6 +4,7 @@
 
 #include "options.hpp"
 #include "umbrage/scene/framing.hpp"
+#include "umbrage/scene/see_through.hpp"
 #include "umbrage/study/sun_light.hpp"
 
 namespace umbrage::cli {
@@ -74,6 +75,9 @@ Result<View> makeView(scene::Scene scene, const ViewOptions& options) {
   view.silhouettes = options.silhouettes;
   view.fill = options.fill;
   view.extrusion = options.extrusion;
+  view.veilLayers = options.veilLayers;
+  view.soft = options.soft;
+  if (options.seeThrough) scene = scene::seeThrough(std::move(scene), *options.seeThrough);
   // Framed before the ground is added: the ground is 64 times as large as the scene.
   const auto camera = makeCamera(scene, options);
   if (!camera) return tl::unexpected(camera.error());

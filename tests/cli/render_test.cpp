@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <algorithm>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -190,8 +191,8 @@ TEST_F(RenderCommand, OnlyNamedPartsCast) {
 // Every caster has its choice and the reason, and filling has its price; a picture without --stats pays for neither.
 TEST_F(RenderCommand, StatsTellTheChoiceForEveryCaster) {
   for (const std::string technique : {"zpass", "zfail", "zmixed", "zp_plus"}) {
-    const Ran ran = umbrage({"render", "sample:industrial", "--technique", technique, "--stats", file("s.json"), "--light",
-                             "point:20,-30,60", "--light", "directional:1,1,-2", "--size", "200x150"});
+    const Ran ran = umbrage({"render", "sample:industrial", "--technique", technique, "--stats", file("s.json"),
+                             "--light", "point:20,-30,60", "--light", "directional:1,1,-2", "--size", "200x150"});
     if (ran.code == 4) GTEST_SKIP() << "no graphics here: " << ran.err;
     ASSERT_EQ(ran.code, 0) << ran.err;
     const auto stats = readJson(file("s.json"));
@@ -211,12 +212,56 @@ TEST_F(RenderCommand, StatsTellTheChoiceForEveryCaster) {
   }
 }
 
+// Glass lets light through in its colour: auto sees that, says so, and the mask is RGB.
+TEST_F(RenderCommand, LightThroughGlassIsColoured) {
+  const Words view{
+      "sample:pavilion", "--eye",  "-7.5,-7,5.5", "--target", "-0.8,-0.6,0.9", "--light", "directional:-0.75,0.5,-0.62",
+      "--size",          "200x150"};
+  const auto render = [&](const Words& more) {
+    Words words{"render"};
+    words.insert(words.end(), view.begin(), view.end());
+    words.insert(words.end(), more.begin(), more.end());
+    const Ran ran = umbrage(words);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+  };
+  render({"--mask", file("m.png"), "--stats", file("s.json"), "-o", file("p.png")});
+  EXPECT_EQ(readJson(file("s.json"))["technique"], "transparent_cpu");
+  const auto mask = png::read(file("m.png"));
+  ASSERT_TRUE(mask);
+  EXPECT_TRUE(
+      std::ranges::any_of(mask->pixels(), [](const image::Rgba8& p) { return p.r > 60 && p.g < 20 && p.b < 20; }));
+  render({"--veil-layers", "0", "-o", file("flat.png")});
+  EXPECT_FALSE(read("p.png") == read("flat.png"));
+  render({"--see-through", "0.3", "-o", file("through.png")});
+  EXPECT_FALSE(read("p.png") == read("through.png"));
+  Words compare{"compare"};
+  compare.insert(compare.end(), view.begin(), view.end());
+  compare.insert(compare.end(), {"--technique", "auto"});
+  EXPECT_EQ(umbrage(compare).code, 0);
+  compare.insert(compare.end(), {"--against", "zpass_cpu"});
+  EXPECT_EQ(umbrage(compare).code, 2);  // they show different things
+}
+
+TEST_F(RenderCommand, LightsWithAnExtentHaveSoftShadows) {
+  const auto box = writeBox();
+  const Ran ran = umbrage({"render", box, "--ground", "--light", "sphere:3,8,5,1", "--samples", "32", "--mask",
+                           file("m.png"), "--stats", file("s.json"), "--size", "200x150"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto soft = readJson(file("s.json"))["lights"][0]["soft"];
+  EXPECT_EQ(soft["samples"], 32);
+  EXPECT_GT(soft["penumbra_pixels"].get<int>(), 50);
+  EXPECT_GT(soft["umbra_pixels"].get<int>(), 50);
+  EXPECT_LT(soft["estimated_error"].get<double>(), 0.05);
+}
+
 // Which finder runs is said, and changes no byte of the mask.
 TEST_F(RenderCommand, EverySilhouetteFinderGivesTheSameMask) {
   std::string mask;
-  for (const std::string finder : {"brute_force", "brute_force_simd", "hextree", "hough", "potentially_visible", "gpu", "auto"}) {
-    const Ran ran = umbrage({"render", "sample:tower", "--technique", "zpass", "--silhouette", finder, "--mask", file("mask.png"),
-                             "--stats", file("s.json"), "--light", "point:20,-30,60", "--size", "200x150"});
+  for (const std::string finder :
+       {"brute_force", "brute_force_simd", "hextree", "hough", "potentially_visible", "gpu", "auto"}) {
+    const Ran ran =
+        umbrage({"render", "sample:tower", "--technique", "zpass", "--silhouette", finder, "--mask", file("mask.png"),
+                 "--stats", file("s.json"), "--light", "point:20,-30,60", "--size", "200x150"});
     if (ran.code == 4) GTEST_SKIP() << "no graphics here: " << ran.err;
     ASSERT_EQ(ran.code, 0) << ran.err;
     if (mask.empty()) mask = read("mask.png");

@@ -78,8 +78,16 @@ INSTANTIATE_TEST_SUITE_P(
         render("LightNan", {"--light", "point:nan,0,0"}, "--light"),
         render("LightColour", {"--light", "point:1,2,3,#12345"}, "#rrggbb"),
         render("SpotCutoff", {"--light", "spot:0,0,5,0,0,-1,200"}, "--light"),
-        render("DiscLight", {"--light", "disc:0,0,5,0,0,-1,0.5"}, "no technique for area lights"),
-        render("RectLight", {"--light", "rect:0,0,5,1,0,0,0,1,0"}, "no technique for area lights"),
+        render("DiscOfNoSize", {"--light", "disc:0,0,5,0,0,-1,0"}, "no extent"),
+        render("DiscOfNoDirection", {"--light", "disc:0,0,5,0,0,0,1"}, "points nowhere"),
+        render("RectangleOnALine", {"--light", "rect:0,0,5,1,0,0,2,0,0"}, "no extent"),
+        render("SunOfHalfTheSky", {"--light", "sun:0,0,-1,180"}, "no extent"),
+        render("SphereShort", {"--light", "sphere:0,0,5"}, "sphere:x,y,z,RADIUS"),
+        render("AreaLightForHard", {"--light", "sphere:0,0,5,1", "--technique", "zpass_cpu"}, "soft_cpu"),
+        render("NoSamples", {"--samples", "0"}, "--samples"), render("HalfASample", {"--samples", "1.5"}, "--samples"),
+        render("SoftErrorNegative", {"--soft-error", "-1"}, "--soft-error"),
+        render("VeilLayersNegative", {"--veil-layers", "-1"}, "--veil-layers"),
+        render("VeilLayersWord", {"--veil-layers", "many"}, "--veil-layers"),
         render("Technique", {"--technique", "magic"}, "ray_traced"), render("Up", {"--up", "x"}, "--up"),
         render("Unit", {"--unit", "km"}, "--unit"), render("North", {"--north", "400"}, "--north"),
         render("Casters", {"--casters", "no-such-part"}, "no-such-part"),
@@ -121,7 +129,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(CliTest, HelpAndVersionAreNoErrors) {
   const Ran help = umbrage({"--help"});
   EXPECT_EQ(help.code, 0);
-  for (const auto* command : {"info", "techniques", "sun", "render", "compare", "profile", "outline", "envelope", "isochrones", "terrain", "sample"})
+  for (const auto* command : {"info", "techniques", "sun", "render", "compare", "profile", "outline", "envelope",
+                              "isochrones", "terrain", "sample"})
     EXPECT_THAT(help.out, HasSubstr(command));
   // What later versions bring is not pretended.
   for (const auto* command : {"verify", "verify", "gallery"}) EXPECT_THAT(help.out, Not(HasSubstr(command)));

@@ -25,15 +25,16 @@ std::vector<std::pair<int, int>> farPixels(const shadow::LightMask& mask, const 
   };
   for (int y = 0; y < edges.height(); ++y)
     for (int x = 0; x < edges.width(); ++x)
-      if ((mask.covered(x, y) != truth.covered(x, y) || mask.light(x, y) != truth.light(x, y)) && !edgeNear(x, y))
-        far.emplace_back(x, y);
+      if (shadow::differAt(mask, truth, x, y) && !edgeNear(x, y)) far.emplace_back(x, y);
   return far;
 }
 
 }  // namespace
 
 std::vector<shadow::TechniqueEntry> allTechniques() {
+  // The soft ones show hard lights by others of these.
   auto all = techniques::cpuTechniques();
+  std::erase_if(all, [](const shadow::TechniqueEntry& entry) { return entry.traits.soft; });
 #ifdef UMBRAGE_HAVE_TECHNIQUES_GL
   for (auto& entry : techniques::openGlTechniques()) all.push_back(std::move(entry));
 #endif
@@ -54,13 +55,20 @@ std::vector<shadow::TechniqueEntry> askedWays() {
   return all;
 }
 
+shadow::TechniqueEntry truthFor(const shadow::TechniqueEntry& entry, const shadow::Geometry& geometry) {
+  const bool seesThrough = entry.traits.tinted && !geometry.filters.empty();
+  for (const shadow::TechniqueEntry& truth : techniques::cpuTechniques())
+    if (truth.traits.name == (seesThrough ? "transparent_rays" : "ray_traced")) return truth;
+  UMBRAGE_CHECK(false, "the truth is missing");
+}
+
 Result<Judge> Judge::make(const shadow::TechniqueEntry& entry, std::shared_ptr<const shadow::Geometry> geometry) {
   Judge judge;
   judge.name_ = entry.traits.name;
   judge.tolerance_ = entry.traits.edgeTolerancePx;
   judge.geometry_ = std::move(geometry);
   auto technique = entry.create();
-  auto truth = techniques::cpuTechniques().front().create();
+  auto truth = truthFor(entry, *judge.geometry_).create();
   if (!technique) return tl::unexpected(technique.error());
   if (!truth) return tl::unexpected(truth.error());
   judge.technique_ = std::move(*technique);

@@ -10,6 +10,8 @@ namespace umbrage::conformance {
 
 /// Every technique of this build, the truth first.
 [[nodiscard]] std::vector<shadow::TechniqueEntry> allTechniques();
+/// What a technique is judged by: one that sees through surfaces, where there are such, by rays that do so too.
+[[nodiscard]] shadow::TechniqueEntry truthFor(const shadow::TechniqueEntry& entry, const shadow::Geometry& geometry);
 
 /// Ways of zfail and zpass that are asked for, by compute shaders and by other extrusions; no pixel may depend on them.
 [[nodiscard]] std::vector<shadow::TechniqueEntry> askedWays();

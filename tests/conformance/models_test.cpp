@@ -26,6 +26,7 @@ std::vector<std::filesystem::path> spread(const std::vector<std::filesystem::pat
 void judgeModel(const shadow::TechniqueEntry& entry, const Case& c,
                 const std::shared_ptr<const shadow::Geometry>& geometry) {
   if (entry.traits.needsClosed && geometry->casters.report.topology != mesh::Topology::closed) return;
+  if (truthFor(entry, *geometry).traits.name == entry.traits.name) return;
   auto judge = Judge::make(entry, geometry);
   if (!judge) {
     ASSERT_EQ(judge.error().code, ErrorCode::device) << judge.error().text();

@@ -94,7 +94,7 @@ std::string caseName(const testing::TestParamInfo<Case>& each) {
 }
 class EverySampleAndFormat : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(WriteRead, EverySampleAndFormat,
-                         testing::Combine(testing::Values("courtyard", "tower", "industrial", "building"),
+                         testing::Combine(testing::Values("courtyard", "tower", "industrial", "building", "pavilion"),
                                           testing::Values("glb", "iv", "city.json", "obj")),
                          caseName);
 

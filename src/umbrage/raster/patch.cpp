@@ -34,6 +34,12 @@ bool Patch::covers(const Corners& corners, int px, int py) const {
   return true;
 }
 
+double nearnessOf(std::span<const Vec3> mapped, const mesh::Triangle& triangle, const Vec3& pixel) {
+  const Vec3& a = mapped[triangle[0]];
+  const Vec3 normal = glm::cross(mapped[triangle[1]] - a, mapped[triangle[2]] - a);
+  return glm::dot(normal, pixel) / glm::dot(normal, a);
+}
+
 bool makePatch(const PixelSpace& space, const Corners& corners, const std::array<std::uint32_t, 3>& corner, bool beyond,
                Patch& out) {
   const Sighted a = corners.at(corner[0]), b = corners.at(corner[1]), c = corners.at(corner[2]);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "umbrage/mesh/mesh.hpp"
 #include "umbrage/raster/pixel_space.hpp"
 
 namespace umbrage::raster {
@@ -43,6 +44,9 @@ struct alignas(32) Patch {
   /// Exactly, with all ties broken alike.
   [[nodiscard]] bool covers(const Corners& corners, int px, int py) const;
 };
+
+/// How near a triangle is at a pixel (x, y, 1), in double precision.
+[[nodiscard]] double nearnessOf(std::span<const Vec3> mapped, const mesh::Triangle& triangle, const Vec3& pixel);
 
 /// Without extent. False, and nothing, where the corners are in line.
 [[nodiscard]] bool makePatch(const PixelSpace& space, const Corners& corners,

@@ -8,11 +8,12 @@
 namespace umbrage::raster {
 namespace {
 
-struct Depths {
-  float farthest = ReceiverDepths::kNothing, nearest = 0.0f;
-};
+// Single precision may call a patch nearer that is a little farther away.
+constexpr double kFarther = 1.0 - 0x1p-20;
 
-UMBRAGE_VECTOR_UNITS Depths depthsOf(const float* nearness, std::uint64_t receivers) {
+}  // namespace
+
+UMBRAGE_VECTOR_UNITS ReceiverDepths::Depths ReceiverDepths::depthsOf(const float* nearness, std::uint64_t receivers) {
   Depths d;
   if (receivers == ~std::uint64_t{0}) {
     Float8 low = reinterpret_cast<const Float8&>(nearness[0]), high = low;
@@ -31,21 +32,6 @@ UMBRAGE_VECTOR_UNITS Depths depthsOf(const float* nearness, std::uint64_t receiv
   return d;
 }
 
-// Single precision may call a patch nearer that is a little farther away.
-constexpr double kFarther = 1.0 - 0x1p-20;
-
-}  // namespace
-
-void ReceiverDepths::findRow(const BlockImage<float>& nearness, std::span<const std::uint64_t> receivers, int row) {
-  float& ofRow = ofRow_[static_cast<std::size_t>(row)] = kNothing;
-  for (int column = 0; column < nearness.columns; ++column) {
-    const std::size_t block = nearness.index(column, row), at = start(row) + static_cast<std::size_t>(column);
-    const Depths depths = depthsOf(nearness.blocks[block].pixel.data(), receivers[block]);
-    farthest_[at] = depths.farthest, nearest_[at] = depths.nearest;
-    ofRow = std::min(ofRow, depths.farthest);
-  }
-}
-
 void ReceiverDepths::findTiles(int row, int rows) {
   float& ofTileRow = ofTileRow_[static_cast<std::size_t>(row)] = kNothing;
   for (int y = row * kTileBlocks; y < std::min(rows, (row + 1) * kTileBlocks); ++y) {
@@ -57,16 +43,44 @@ void ReceiverDepths::findTiles(int row, int rows) {
   }
 }
 
-Result<void> ReceiverDepths::find(const BlockImage<float>& nearness, std::span<const std::uint64_t> receivers) {
-  stride_ = (static_cast<std::size_t>(nearness.columns) + 15) & ~std::size_t{7};
-  const auto rows = static_cast<std::size_t>(nearness.rows), tileRows = (rows + kTileBlocks - 1) / kTileBlocks;
-  farthest_.assign(stride_ * rows, kNothing), nearest_.assign(stride_ * rows, 0.0f);
-  ofRow_.resize(rows), ofTileRow_.resize(tileRows);
+Result<void> ReceiverDepths::findAll(int columns, int rows,
+                                     const std::function<Depths(std::size_t block)>& depthsOfBlock) {
+  stride_ = (static_cast<std::size_t>(columns) + 15) & ~std::size_t{7};
+  const auto count = static_cast<std::size_t>(rows), tileRows = (count + kTileBlocks - 1) / kTileBlocks;
+  farthest_.assign(stride_ * count, kNothing), nearest_.assign(stride_ * count, 0.0f);
+  ofRow_.assign(count, kNothing), ofTileRow_.resize(tileRows);
   ofTile_.assign(stride_ * tileRows, kNothing);
   return parallel::forEach(static_cast<int>(tileRows), [&](int tileRow) {
-    for (int row = tileRow * kTileBlocks; row < std::min(nearness.rows, (tileRow + 1) * kTileBlocks); ++row)
-      findRow(nearness, receivers, row);
-    findTiles(tileRow, nearness.rows);
+    for (int row = tileRow * kTileBlocks; row < std::min(rows, (tileRow + 1) * kTileBlocks); ++row) {
+      for (int column = 0; column < columns; ++column) {
+        const auto block =
+            static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+        const std::size_t at = start(row) + static_cast<std::size_t>(column);
+        const Depths depths = depthsOfBlock(block);
+        farthest_[at] = depths.farthest, nearest_[at] = depths.nearest;
+        float& ofRow = ofRow_[static_cast<std::size_t>(row)];
+        ofRow = std::min(ofRow, depths.farthest);
+      }
+    }
+    findTiles(tileRow, rows);
+  });
+}
+
+Result<void> ReceiverDepths::find(const BlockImage<float>& nearness, std::span<const std::uint64_t> receivers) {
+  return findAll(nearness.columns, nearness.rows,
+                 [&](std::size_t block) { return depthsOf(nearness.blocks[block].pixel.data(), receivers[block]); });
+}
+
+Result<void> ReceiverDepths::find(const BlockImage<float>& nearness, const VeilLayers& veils,
+                                  std::span<const std::uint64_t> receivers) {
+  return findAll(nearness.columns, nearness.rows, [&](std::size_t block) {
+    const std::size_t surface = veils.surface(block);
+    Depths all = depthsOf(nearness.blocks[block].pixel.data(), receivers[surface]);
+    for (std::size_t l = 0; l < veils.count(block); ++l) {
+      const Depths depths = depthsOf(veils.layers[veils.first[block] + l].nearness.data(), receivers[surface + 1 + l]);
+      all = {std::min(all.farthest, depths.farthest), std::max(all.nearest, depths.nearest)};
+    }
+    return all;
   });
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
-#include "umbrage/raster/blocks.hpp"
+#include "umbrage/raster/layers.hpp"
 
 namespace umbrage::raster {
 
@@ -18,6 +19,10 @@ class ReceiverDepths {
   /// Errors: ErrorCode::device when memory runs out.
   [[nodiscard]] Result<void> find(const BlockImage<float>& nearness, std::span<const std::uint64_t> receivers);
 
+  /// The same with veils: `receivers` per surface, as VeilLayers numbers them.
+  [[nodiscard]] Result<void> find(const BlockImage<float>& nearness, const VeilLayers& veils,
+                                  std::span<const std::uint64_t> receivers);
+
   /// Of a row of blocks, in whole groups of eight and one more: nearness of the farthest, and of the nearest, receiver of each.
   [[nodiscard]] const float* farthest(int row) const { return farthest_.data() + start(row); }
   [[nodiscard]] const float* nearest(int row) const { return nearest_.data() + start(row); }
@@ -30,7 +35,13 @@ class ReceiverDepths {
  private:
   [[nodiscard]] std::size_t start(int row) const { return static_cast<std::size_t>(row) * stride_; }
   void findTiles(int row, int rows);
-  void findRow(const BlockImage<float>& nearness, std::span<const std::uint64_t> receivers, int row);
+  /// Nearness of a block's farthest and nearest receiver.
+  struct Depths {
+    float farthest = kNothing, nearest = 0.0f;
+  };
+  [[nodiscard]] static Depths depthsOf(const float* nearness, std::uint64_t receivers);
+  [[nodiscard]] Result<void> findAll(int columns, int rows,
+                                     const std::function<Depths(std::size_t block)>& depthsOfBlock);
   std::size_t stride_ = 0;
   std::vector<float> farthest_, nearest_, ofRow_;
   std::vector<float> ofTile_, ofTileRow_;  ///< eight tiles and more a row, and of each row

@@ -140,10 +140,8 @@ class BandCounting {
 
   // Whether a patch is nearer than the triangle seen at a pixel, in double precision.
   [[nodiscard]] bool isBefore(const Patch& patch, std::uint32_t triangle, int px, int py) const {
-    const mesh::Triangle& c = request_.triangles[triangle];
-    const Vec3 &a = corners_.mapped[c[0]], pixel(px + 0.5, py + 0.5, 1.0);
-    const Vec3 normal = glm::cross(corners_.mapped[c[1]] - a, corners_.mapped[c[2]] - a);
-    const double nearness = glm::dot(normal, pixel) / glm::dot(normal, a);
+    const Vec3 pixel(px + 0.5, py + 0.5, 1.0);
+    const double nearness = nearnessOf(corners_.mapped, request_.triangles[triangle], pixel);
     return patch.at(3, pixel.x, pixel.y) > nearness * patch.distance;
   }
 

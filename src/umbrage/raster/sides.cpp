@@ -56,20 +56,28 @@ int shadowAtEye(const std::array<Sighted, 3>& corner, int lightSide, const Sight
 
 }  // namespace
 
-int countAtEye(const shadow::CasterSet& casters, const shadow::Silhouette& silhouette, const PixelSpace& space,
-               const Corners& corners) {
+void visitAtEye(const shadow::CasterSet& casters, std::span<const std::int8_t> side, const Vec4& light,
+                const PixelSpace& space, const Corners& corners,
+                const std::function<void(std::uint32_t triangle, int sign)>& fn) {
   std::vector<std::uint8_t> near(casters.componentCount);
   for (std::uint32_t c = 0; c < casters.componentCount; ++c)
-    near[c] = mayLieBetween(casters.componentBounds[c], space.eye, silhouette.light);
-  int count = 0;
+    near[c] = mayLieBetween(casters.componentBounds[c], space.eye, light);
   for (std::uint32_t t = 0; t < casters.triangles.size(); ++t) {
-    if (silhouette.side[t] == 0 || near[casters.componentOf[t]] == 0) continue;
+    if (side[t] == 0 || near[casters.componentOf[t]] == 0) continue;
     const mesh::Triangle& c = casters.triangles[t];
     Box3 box;
     for (int k = 0; k < 3; ++k) box.add(casters.corner(t, k));
-    if (!mayLieBetween(box, space.eye, silhouette.light)) continue;
-    count += shadowAtEye({corners.at(c[0]), corners.at(c[1]), corners.at(c[2])}, silhouette.side[t], corners.light);
+    if (!mayLieBetween(box, space.eye, light)) continue;
+    const int sign = shadowAtEye({corners.at(c[0]), corners.at(c[1]), corners.at(c[2])}, side[t], corners.light);
+    if (sign != 0) fn(t, sign);
   }
+}
+
+int countAtEye(const shadow::CasterSet& casters, const shadow::Silhouette& silhouette, const PixelSpace& space,
+               const Corners& corners) {
+  int count = 0;
+  visitAtEye(casters, silhouette.side, silhouette.light, space, corners,
+             [&](std::uint32_t, int sign) { count += sign; });
   return count;
 }
 

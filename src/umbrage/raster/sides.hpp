@@ -1,10 +1,18 @@
 #pragma once
 
+#include <functional>
+
 #include "umbrage/math/box.hpp"
 #include "umbrage/raster/patch.hpp"
 #include "umbrage/shadow/silhouette.hpp"
 
 namespace umbrage::raster {
+
+/// Calls fn(triangle, +1 or -1) for every caster surface between the eye and the light, as countAtEye counts it.
+/// `side`: Silhouette::side, for `light`.
+void visitAtEye(const shadow::CasterSet& casters, std::span<const std::int8_t> side, const Vec4& light,
+                const PixelSpace& space, const Corners& corners,
+                const std::function<void(std::uint32_t triangle, int sign)>& fn);
 
 /// The caster surfaces between the eye and the light, by the rule the sides of the volumes count with. Exact, even where the eye lies on a side
 /// or on a caster: there the sides and this count agree on where it is.

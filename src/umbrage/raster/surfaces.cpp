@@ -6,6 +6,7 @@
 
 #include "umbrage/math/predicates.hpp"
 #include "umbrage/shadow/averted_faces.hpp"
+#include "umbrage/shadow/tinted_silhouette.hpp"
 
 namespace umbrage::raster {
 namespace {
@@ -103,34 +104,54 @@ UMBRAGE_VECTOR_UNITS void draw(BandDrawing& band, const Patch& patch) {
 
 }  // namespace
 
-bool SurfaceRaster::make(const PixelSpace& space, const SeenPositions& positions, std::uint32_t triangle, Patch& out) {
-  const scene::Surfaces& surfaces = geometry_.surfaces;
+Shown makeSurfacePatch(const PixelSpace& space, const SeenPositions& positions, const scene::Surfaces& surfaces,
+                       std::uint32_t triangle, Patch& out) {
   const mesh::Triangle& corner = surfaces.triangles[triangle];
-  if (averted_[triangle] != 0 ||
-      (positions.outside[corner[0]] & positions.outside[corner[1]] & positions.outside[corner[2]]) != 0)
-    return false;
+  if ((positions.outside[corner[0]] & positions.outside[corner[1]] & positions.outside[corner[2]]) != 0)
+    return Shown::no;
   const Corners corners{positions.mapped, {}};
   const std::array<Vec3, 3> points{positions.mapped[corner[0]], positions.mapped[corner[1]],
                                    positions.mapped[corner[2]]};
   bound(space, points, out);
-  if (out.x0 >= out.x1 || out.y0 >= out.y1) return false;
+  if (out.x0 >= out.x1 || out.y0 >= out.y1) return Shown::no;
   out.id = triangle;
-  if (!makePatch(space, corners, {corner[0], corner[1], corner[2]}, false, out)) return false;
-  if (liesInPlane(surfaces.corner(triangle, 0), surfaces.corner(triangle, 1), surfaces.corner(triangle, 2),
-                  space.eye)) {
+  if (!makePatch(space, corners, {corner[0], corner[1], corner[2]}, false, out)) return Shown::no;
+  if (liesInPlane(surfaces.corner(triangle, 0), surfaces.corner(triangle, 1), surfaces.corner(triangle, 2), space.eye))
+    return Shown::edgeOn;
+  if (!(out.distance > 0.0)) return Shown::no;
+  out.x[3] /= out.distance, out.y[3] /= out.distance, out.c[3] /= out.distance;
+  out.distance = 1.0;
+  return Shown::yes;
+}
+
+SurfaceRaster::SurfaceRaster(const shadow::Geometry& geometry, Drawn drawn) : geometry_(geometry) {
+  if (drawn == Drawn::opaque) veiled_ = shadow::veiledComponents(geometry.casters, geometry.filters);
+}
+
+// Averted faces of a convex solid hide behind its others; behind a veil they are seen.
+void SurfaceRaster::findAverted(const Vec3& eye) {
+  averted_ = shadow::avertedFaces(geometry_, eye);
+  if (veiled_.empty() || geometry_.filters.empty()) return;
+  const shadow::CasterSet& casters = geometry_.casters;
+  for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
+    if (veiled_[casters.componentOf[t]] != 0) averted_[casters.surfaceTriangle[t]] = 0;
+  for (std::uint32_t t = 0; t < averted_.size(); ++t)
+    if (geometry_.filters.isVeil(t)) averted_[t] = 1;  // not drawn here
+}
+
+bool SurfaceRaster::make(const PixelSpace& space, const SeenPositions& positions, std::uint32_t triangle, Patch& out) {
+  if (averted_[triangle] != 0) return false;
+  const Shown shown = makeSurfacePatch(space, positions, geometry_.surfaces, triangle, out);
+  if (shown == Shown::edgeOn) {
     const std::lock_guard lock(edgeOnMutex_);
     edgeOn_.push_back(triangle);
-    return false;
   }
-  if (!(out.distance > 0.0)) return false;
-  out.x[3] /= out.distance, out.y[3] /= out.distance, out.c[3] /= out.distance;  // nearness itself
-  out.distance = 1.0;
-  return true;
+  return shown == Shown::yes;
 }
 
 Result<void> SurfaceRaster::draw(const PixelSpace& space, const SeenPositions& positions, SeenBlocks& out) {
   const scene::Surfaces& surfaces = geometry_.surfaces;
-  averted_ = shadow::avertedFaces(geometry_, space.eye);
+  findAverted(space.eye);
   out.nearness.resize(space.width, space.height);
   out.triangle.resize(space.width, space.height);
   edgeOn_.clear();

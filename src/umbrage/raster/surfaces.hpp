@@ -13,12 +13,21 @@ struct SeenBlocks {
   BlockImage<std::uint32_t> triangle;  ///< shadow::kNoTriangle where there is none
 };
 
+/// A triangle of the surfaces as a patch whose plane function is nearness itself.
+enum class Shown { no, yes, edgeOn };
+/// edgeOn: the eye lies in its plane (liesInPlane), and nothing is seen of it.
+[[nodiscard]] Shown makeSurfacePatch(const PixelSpace& space, const SeenPositions& positions,
+                                     const scene::Surfaces& surfaces, std::uint32_t triangle, Patch& out);
+
+/// Which surfaces are drawn.
+enum class Drawn { all, opaque };
+
 /// Draws what cameras see of a scene, on the processor: every triangle in the plane of its three corners, with no clipping and no rounding of
 /// corners to a grid; where a pixel's centre lies on an edge two triangles share, exactly one of them covers it.
 class SurfaceRaster {
  public:
   /// REQUIRES: `geometry` outlives this.
-  explicit SurfaceRaster(const shadow::Geometry& geometry) : geometry_(geometry) {}
+  explicit SurfaceRaster(const shadow::Geometry& geometry, Drawn drawn = Drawn::all);
 
   /// `positions`: those of the geometry, mapped by `space`.
   /// 1. Left out are triangles in whose plane the eye lies (liesInPlane): nothing is seen of them. Those of them that cast are `edgeOn`.
@@ -30,7 +39,9 @@ class SurfaceRaster {
 
  private:
   [[nodiscard]] bool make(const PixelSpace& space, const SeenPositions& positions, std::uint32_t triangle, Patch& out);
+  void findAverted(const Vec3& eye);
   const shadow::Geometry& geometry_;
+  std::vector<std::uint8_t> veiled_;  ///< per component, where veils are left out
   std::vector<std::uint8_t> averted_;
   std::mutex edgeOnMutex_;
   std::vector<std::uint32_t> edgeOn_;

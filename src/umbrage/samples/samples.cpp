@@ -13,13 +13,15 @@ struct Sample {
   scene::Scene (*build)();
 };
 
-constexpr std::array<Sample, 4> kSamples{{
+constexpr std::array<Sample, 5> kSamples{{
     {{"courtyard", "A perimeter block around a court of 30 m with walls of 20 m, a kiosk and trees in it."},
      detail::courtyard},
     {{"tower", "A wrought-iron lattice tower of 300 m with curved legs: thousands of thin struts."}, detail::tower},
     {{"industrial", "An industrial site: halls, tanks, spheres, pipe racks, chimneys, a conveyor."},
      detail::industrial},
     {{"building", "An office tower of about 180,000 triangles: facade grid, slabs, concrete core."}, detail::building},
+    {{"pavilion", "A stained-glass corner, a ball of glass and a smoked case with something inside: coloured light."},
+     detail::pavilion},
 }};
 
 constexpr auto kInfos = [] {

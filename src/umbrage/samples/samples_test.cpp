@@ -118,6 +118,14 @@ const std::map<std::string, Expected>& expectations() {
         {37, 27, 109},
         16187422567190618673ull,
         {"Tower/Facade/Panes", "Podium/Facade/Panes"},
+        {}}},
+      {"pavilion",
+       {600,
+        4000,
+        {-6, -5, -0.25},
+        {6, 5, 4.0400390625},
+        6705907215128359498ull,
+        {"Pavilion/South/Panes", "Pavilion/East/Panes"},
         {}}}};
   return all;
 }
@@ -127,7 +135,7 @@ class EverySample : public testing::TestWithParam<std::string> {
   [[nodiscard]] scene::Scene scene() const { return built(GetParam()); }
   [[nodiscard]] const Expected& expected() const { return expectations().at(GetParam()); }
 };
-INSTANTIATE_TEST_SUITE_P(Samples, EverySample, testing::Values("courtyard", "tower", "industrial", "building"),
+INSTANTIATE_TEST_SUITE_P(Samples, EverySample, testing::Values("courtyard", "tower", "industrial", "building", "pavilion"),
                          [](const auto& each) { return each.param; });
 
 TEST_P(EverySample, IsAValidSceneInMetresWithZUp) {
@@ -263,7 +271,7 @@ TEST(Samples, AreListedByName) {
     EXPECT_FALSE(info.summary.empty());
     EXPECT_TRUE(make(info.name));
   }
-  EXPECT_THAT(names, testing::ElementsAre("courtyard", "tower", "industrial", "building"));
+  EXPECT_THAT(names, testing::ElementsAre("courtyard", "tower", "industrial", "building", "pavilion"));
   const auto none = make("castle");
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().code, ErrorCode::usage);

@@ -12,12 +12,27 @@ bool properDirection(const Vec3& v) {
   return std::isfinite(length) && length > 1e-150;
 }
 
+bool positive(double value) { return std::isfinite(value) && value > 0.0; }
+
 }  // namespace
 
+bool isArea(const Light& light) {
+  return !std::holds_alternative<PointLight>(light.shape) && !std::holds_alternative<DirectionalLight>(light.shape) &&
+         !std::holds_alternative<SpotLight>(light.shape);
+}
+
 Vec4 homogeneous(const Light& light, const Vec3& origin) {
-  if (const auto* sun = std::get_if<DirectionalLight>(&light.shape)) return {-glm::normalize(sun->direction), 0.0};
-  if (const auto* lamp = std::get_if<PointLight>(&light.shape)) return {lamp->position - origin, 1.0};
-  return {std::get<SpotLight>(light.shape).position - origin, 1.0};
+  struct Centre {
+    Vec3 origin;
+    Vec4 operator()(const PointLight& l) const { return {l.position - origin, 1.0}; }
+    Vec4 operator()(const DirectionalLight& l) const { return {-glm::normalize(l.direction), 0.0}; }
+    Vec4 operator()(const SpotLight& l) const { return {l.position - origin, 1.0}; }
+    Vec4 operator()(const DiscLight& l) const { return {l.centre - origin, 1.0}; }
+    Vec4 operator()(const RectangleLight& l) const { return {l.centre - origin, 1.0}; }
+    Vec4 operator()(const SphereLight& l) const { return {l.centre - origin, 1.0}; }
+    Vec4 operator()(const SunLight& l) const { return {-glm::normalize(l.direction), 0.0}; }
+  };
+  return std::visit(Centre{origin}, light.shape);
 }
 
 bool insideCone(const Light& light, const Vec3& point) {
@@ -28,12 +43,23 @@ bool insideCone(const Light& light, const Vec3& point) {
 }
 
 bool isValid(const Light& light) {
-  if (!finite(light.colour) || !std::isfinite(light.intensity)) return false;
-  if (const auto* sun = std::get_if<DirectionalLight>(&light.shape)) return properDirection(sun->direction);
-  if (const auto* lamp = std::get_if<PointLight>(&light.shape)) return finite(lamp->position);
-  const auto& spot = std::get<SpotLight>(light.shape);
-  return finite(spot.position) && properDirection(spot.direction) && spot.cutoff > Angle() &&
-         spot.cutoff <= Angle::degrees(180);
+  struct Valid {
+    bool operator()(const PointLight& l) const { return finite(l.position); }
+    bool operator()(const DirectionalLight& l) const { return properDirection(l.direction); }
+    bool operator()(const SpotLight& l) const {
+      return finite(l.position) && properDirection(l.direction) && l.cutoff > Angle() &&
+             l.cutoff <= Angle::degrees(180);
+    }
+    bool operator()(const DiscLight& l) const {
+      return finite(l.centre) && properDirection(l.direction) && positive(l.radius);
+    }
+    bool operator()(const RectangleLight& l) const { return finite(l.centre) && properDirection(glm::cross(l.u, l.v)); }
+    bool operator()(const SphereLight& l) const { return finite(l.centre) && positive(l.radius); }
+    bool operator()(const SunLight& l) const {
+      return properDirection(l.direction) && l.radius > Angle() && l.radius < Angle::degrees(90);
+    }
+  };
+  return finite(light.colour) && std::isfinite(light.intensity) && std::visit(Valid{}, light.shape);
 }
 
 }  // namespace umbrage::scene

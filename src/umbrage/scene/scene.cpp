@@ -17,7 +17,8 @@ std::optional<std::string> findFault(const mesh::Mesh& m, std::size_t materialCo
     if (!finite(p)) return "a coordinate is not finite";
   for (const mesh::Triangle& t : m.triangles)
     if (std::max({t[0], t[1], t[2]}) >= m.positions.size()) return "a corner index is out of range";
-  if (!m.materials.empty() && m.materials.size() != m.triangles.size()) return "materials and triangles differ in number";
+  if (!m.materials.empty() && m.materials.size() != m.triangles.size())
+    return "materials and triangles differ in number";
   for (const std::uint32_t material : m.materials)
     if (material >= materialCount) return "a material index is out of range";
   return std::nullopt;
@@ -51,8 +52,13 @@ Box3 bounds(const Scene& scene, bool castersOnly) {
 
 std::optional<std::string> findFault(const Scene& scene) {
   if (scene.materials.empty()) return "no material";
-  for (const Material& m : scene.materials)
-    if (!finite(m.colour) || !(m.opacity >= 0.0 && m.opacity <= 1.0)) return "material '" + m.name + "' is out of range";
+  for (const Material& m : scene.materials) {
+    const Vec3 passes = m.filter.value_or(Vec3(0.0));
+    const bool passesLess =
+        glm::all(glm::greaterThanEqual(passes, Vec3(0.0))) && glm::all(glm::lessThanEqual(passes, Vec3(1.0)));
+    if (!finite(m.colour) || !(m.opacity >= 0.0 && m.opacity <= 1.0) || !passesLess)
+      return "material '" + m.name + "' is out of range";
+  }
   if (!(scene.metresPerUnit > 0.0) || !std::isfinite(scene.metresPerUnit)) return "the unit is out of range";
   for (const auto& m : scene.meshes) {
     if (m == nullptr) return "a mesh is missing";

@@ -12,12 +12,19 @@
 
 namespace umbrage::scene {
 
-/// How a surface looks. colour: linear RGB in [0, 1]; opacity: 0 (clear) to 1.
+/// How a surface looks. colour: linear RGB in [0, 1]; opacity: 0 (nothing is seen of it) to 1.
 struct Material {
   std::string name;
   Vec3 colour{0.8};
   double opacity = 1.0;
+  std::optional<Vec3> filter = {};  ///< what passes it, per channel in [0, 1], where that is not (1 - opacity) x colour
 };
+
+/// The part of the light that passes a surface, per channel: mostly its colour where it is not opaque.
+/// Source: Kim, Kim and Turk, real-time shadows of transparent casters, 2008.
+[[nodiscard]] inline Vec3 transmittance(const Material& material) {
+  return material.filter.value_or((1.0 - material.opacity) * material.colour);
+}
 
 /// One placed mesh. `name` is its path through the file's hierarchy, levels separated by '/': "House/Roof/Tiles".
 struct Instance {

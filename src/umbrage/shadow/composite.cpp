@@ -37,7 +37,8 @@ struct PreparedLight {
 // What the pixels of one triangle have in common; mostly the next shows the same.
 struct Face {
   std::uint32_t triangle = kNoTriangle;
-  Vec3 normal{0.0}, colour{0.0};
+  Vec3 normal{0.0};
+  const scene::Material* material = nullptr;
 };
 
 std::vector<PreparedLight> prepare(std::span<const scene::Light> lights, const Vec3& origin) {
@@ -56,8 +57,94 @@ Vec3 received(const PreparedLight& light, const Vec3& point, const Vec3& n) {
 
 Vec3 maskValue(const LightMask& mask, int x, int y) {
   if (mask.tint.empty()) return Vec3(mask.light(x, y) / 255.0);
-  const image::Rgb8 t = mask.tint(x, y);
-  return Vec3(t.r, t.g, t.b) / 255.0;
+  return partsOf(mask.tint(x, y));
+}
+
+/// What surfaces look like from one camera.
+class Painter {
+ public:
+  Painter(const scene::Scene& scene, const scene::Surfaces& surfaces, const scene::Camera& camera,
+          std::span<const scene::Light> lights, double ambient)
+      : scene_(scene),
+        surfaces_(surfaces),
+        lights_(prepare(lights, surfaces.origin)),
+        rays_(scene::pixelRays(camera)),
+        eye_(camera.eye - surfaces.origin),
+        up_(scene::upVector(scene.up)),
+        ambient_(ambient) {}
+
+  [[nodiscard]] Vec3 ray(int x, int y) const { return rays_.through(x + 0.5, y + 0.5); }
+  void turnTo(std::uint32_t triangle, Face& face) const {
+    if (triangle == face.triangle) return;
+    face = {triangle, glm::normalize(surfaces_.normal(triangle)), &scene_.materials[surfaces_.materials[triangle]]};
+  }
+  /// Linear; `reach(i)`: what of light i gets there.
+  template <class Reach>
+  [[nodiscard]] Vec3 colour(const Face& face, const Vec3& ray, float depth, const Reach& reach) const {
+    const Vec3 n = glm::dot(face.normal, ray) > 0.0 ? -face.normal : face.normal;
+    const Vec3 point = eye_ + double(depth) * ray;
+    Vec3 light(skyLight(ambient_, n, up_));
+    for (std::size_t i = 0; i < lights_.size(); ++i)
+      if (const Vec3 m = reach(i); m != Vec3(0.0)) light += m * received(lights_[i], point, n);
+    return face.material->colour * light;
+  }
+
+ private:
+  const scene::Scene& scene_;
+  const scene::Surfaces& surfaces_;
+  std::vector<PreparedLight> lights_;
+  scene::PixelRays rays_;
+  Vec3 eye_, up_;
+  double ambient_;
+};
+
+// The veils of a pixel, the farthest first, each over what is behind it.
+Vec3 veiled(Vec3 behind, const Painter& painter, const Vec3& ray, std::span<const Veil> veils, std::size_t first,
+            std::span<const LightMask> masks) {
+  for (std::size_t k = veils.size(); k-- > 0;) {
+    Face face;
+    painter.turnTo(veils[k].triangle, face);
+    const Vec3 own = painter.colour(face, ray, veils[k].depth, [&](std::size_t i) { return partsOf(masks[i].veils[first + k]); });
+    behind = scene::transmittance(*face.material) * behind + face.material->opacity * own;
+  }
+  return behind;
+}
+
+image::RgbImage paint(const scene::Scene& scene, const scene::Surfaces& surfaces, const scene::Camera& camera,
+                      const SurfaceBuffer& seen, const VeilBuffer& veils, std::span<const scene::Light> lights,
+                      std::span<const LightMask> masks, const CompositeOptions& options) {
+  UMBRAGE_CHECK(lights.size() == masks.size(), "one mask a light");
+  UMBRAGE_CHECK(seen.triangle.width() == camera.width && seen.triangle.height() == camera.height, "picture size");
+  const Painter painter(scene, surfaces, camera, lights, options.ambient);
+  const auto code = [](double srgb) { return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(srgb, 0.0, 1.0))); };
+  const image::Rgb8 background{code(options.background.x), code(options.background.y), code(options.background.z)};
+  const Vec3 far(decodeSrgb(background.r), decodeSrgb(background.g), decodeSrgb(background.b));
+
+  image::RgbImage picture(camera.width, camera.height, background);
+  const auto shadeRow = [&](int y) {
+    Face face;
+    for (int x = 0; x < camera.width; ++x) {
+      const std::uint32_t t = seen.triangle(x, y);
+      const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(x);
+      const std::span<const Veil> before = veils.at(pixel);
+      if (t == kNoTriangle && before.empty()) continue;
+      const Vec3 ray = painter.ray(x, y);
+      Vec3 colour = far;
+      if (t != kNoTriangle) {
+        painter.turnTo(t, face);
+        colour = painter.colour(face, ray, seen.depth(x, y), [&](std::size_t i) { return maskValue(masks[i], x, y); });
+      }
+      if (!before.empty()) colour = veiled(colour, painter, ray, before, veils.first[pixel], masks);
+      picture(x, y) = encode(colour);
+    }
+  };
+  constexpr std::size_t kRowsPerThread = 64;
+  const auto rows = static_cast<std::size_t>(camera.height);
+  const auto threads = static_cast<unsigned>(std::min<std::size_t>(threadCount(0), 1 + rows / kRowsPerThread));
+  inParts(rows, 1, threads, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end; ++y) shadeRow(static_cast<int>(y));
+  });
+  return picture;
 }
 
 }  // namespace
@@ -79,38 +166,12 @@ double skyLight(double ambient, const Vec3& normal, const Vec3& up) {
 image::RgbImage composite(const scene::Scene& scene, const scene::Surfaces& surfaces, const scene::Camera& camera,
                           const SurfaceBuffer& seen, std::span<const scene::Light> lights,
                           std::span<const LightMask> masks, const CompositeOptions& options) {
-  UMBRAGE_CHECK(lights.size() == masks.size(), "one mask a light");
-  UMBRAGE_CHECK(seen.triangle.width() == camera.width && seen.triangle.height() == camera.height, "picture size");
-  const auto prepared = prepare(lights, surfaces.origin);
-  const scene::PixelRays rays = scene::pixelRays(camera);
-  const Vec3 eye = camera.eye - surfaces.origin;
-  const Vec3 up = scene::upVector(scene.up);
-  const auto code = [](double srgb) { return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(srgb, 0.0, 1.0))); };
-  const image::Rgb8 background{code(options.background.x), code(options.background.y), code(options.background.z)};
+  return paint(scene, surfaces, camera, seen, {}, lights, masks, options);
+}
 
-  image::RgbImage picture(camera.width, camera.height, background);
-  const auto shadeRow = [&](int y) {
-    Face face;
-    for (int x = 0; x < camera.width; ++x) {
-      const std::uint32_t t = seen.triangle(x, y);
-      if (t == kNoTriangle) continue;
-      const Vec3 ray = rays.through(x + 0.5, y + 0.5);
-      if (t != face.triangle) face = {t, glm::normalize(surfaces.normal(t)), scene.materials[surfaces.materials[t]].colour};
-      const Vec3 n = glm::dot(face.normal, ray) > 0.0 ? -face.normal : face.normal;
-      const Vec3 point = eye + double(seen.depth(x, y)) * ray;
-      Vec3 light(skyLight(options.ambient, n, up));
-      for (std::size_t i = 0; i < masks.size(); ++i)
-        if (const Vec3 m = maskValue(masks[i], x, y); m != Vec3(0.0)) light += m * received(prepared[i], point, n);
-      picture(x, y) = encode(face.colour * light);
-    }
-  };
-  constexpr std::size_t kRowsPerThread = 64;
-  const auto rows = static_cast<std::size_t>(camera.height);
-  const auto threads = static_cast<unsigned>(std::min<std::size_t>(threadCount(0), 1 + rows / kRowsPerThread));
-  inParts(rows, 1, threads, [&](unsigned, std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y) shadeRow(static_cast<int>(y));
-  });
-  return picture;
+image::RgbImage composite(const scene::Scene& scene, const scene::Surfaces& surfaces, const scene::Camera& camera,
+                          const Shading& shading, std::span<const scene::Light> lights, const CompositeOptions& options) {
+  return paint(scene, surfaces, camera, shading.surface, shading.veils, lights, shading.masks, options);
 }
 
 image::RgbImage averaged(const image::RgbImage& picture, int n) {

@@ -8,6 +8,7 @@
 #include "umbrage/scene/surfaces.hpp"
 #include "umbrage/shadow/light_mask.hpp"
 #include "umbrage/shadow/surface_buffer.hpp"
+#include "umbrage/shadow/technique.hpp"
 
 namespace umbrage::shadow {
 
@@ -29,6 +30,11 @@ inline constexpr double kSkyBase = 0.75;
 [[nodiscard]] image::RgbImage composite(const scene::Scene& scene, const scene::Surfaces& surfaces, const scene::Camera& camera,
                                         const SurfaceBuffer& seen, std::span<const scene::Light> lights,
                                         std::span<const LightMask> masks, const CompositeOptions& options = {});
+
+/// The same of a shading, with its veils over what lies behind them: each lets through its transmittance of that, and adds its own picture x opacity.
+[[nodiscard]] image::RgbImage composite(const scene::Scene& scene, const scene::Surfaces& surfaces, const scene::Camera& camera,
+                                        const Shading& shading, std::span<const scene::Light> lights,
+                                        const CompositeOptions& options = {});
 
 /// A picture an n-th as wide and high: every pixel the mean, in linear light, of n x n. REQUIRES: n > 0 divides both sides.
 [[nodiscard]] image::RgbImage averaged(const image::RgbImage& picture, int n);

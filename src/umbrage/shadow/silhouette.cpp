@@ -17,10 +17,12 @@ std::vector<std::int8_t> sidesOf(const CasterSet& casters, const Vec4& light) {
 }
 
 // A light inside a convex solid, or on it, sees none of its faces from outside; then all faces must count.
-void leaveOutAvertedFaces(const CasterSet& casters, std::vector<std::int8_t>& side) {
+void leaveOutAvertedFaces(const CasterSet& casters, std::span<const std::uint8_t> but, std::vector<std::int8_t>& side) {
   std::vector<std::uint8_t> seenFromOutside(casters.componentCount, 0);
   for (std::size_t t = 0; t < side.size(); ++t)
     if (side[t] * casters.outward[t] > 0) seenFromOutside[casters.componentOf[t]] = 1;
+  for (std::uint32_t c = 0; c < but.size(); ++c)
+    if (but[c] != 0) seenFromOutside[c] = 0;
   for (std::size_t t = 0; t < side.size(); ++t)
     if (side[t] * casters.outward[t] < 0 && seenFromOutside[casters.componentOf[t]] != 0) side[t] = 0;
 }
@@ -29,7 +31,7 @@ void leaveOutAvertedFaces(const CasterSet& casters, std::vector<std::int8_t>& si
 
 std::vector<std::int8_t> findSides(const CasterSet& casters, const Vec4& light, const SilhouetteOptions& options) {
   std::vector<std::int8_t> side = sidesOf(casters, light);
-  if (!options.countEverySurface) leaveOutAvertedFaces(casters, side);
+  if (!options.countEverySurface) leaveOutAvertedFaces(casters, options.alsoAverted, side);
   return side;
 }
 

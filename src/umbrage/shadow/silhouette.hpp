@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct SilhouetteOptions {
   /// A convex solid seen from outside hides the light wherever its lit faces do, so its averted faces are left out: half the
   /// sides and caps, and the same shadows. True counts every surface all the same.
   bool countEverySurface = false;
+  /// Per component: 1 where averted faces count all the same. Empty: nowhere.
+  std::span<const std::uint8_t> alsoAverted = {};
 };
 
 /// Every edge tested, one after the other: the yardstick for all other finders.

@@ -13,9 +13,11 @@
 #include "umbrage/scene/light.hpp"
 #include "umbrage/scene/surfaces.hpp"
 #include "umbrage/shadow/caster_set.hpp"
+#include "umbrage/shadow/filters.hpp"
 #include "umbrage/shadow/finders/finder.hpp"
 #include "umbrage/shadow/light_mask.hpp"
 #include "umbrage/shadow/surface_buffer.hpp"
+#include "umbrage/shadow/veils.hpp"
 
 namespace umbrage::shadow {
 
@@ -34,11 +36,13 @@ struct Traits {
 struct Geometry {
   scene::Surfaces surfaces;
   CasterSet casters;
+  Filters filters = {};  ///< for techniques that know transparent casters; to all others every surface is opaque
 };
 [[nodiscard]] inline std::shared_ptr<const Geometry> makeGeometry(const scene::Scene& scene) {
   auto surfaces = scene::flatten(scene);
   auto casters = buildCasters(surfaces);
-  return std::make_shared<const Geometry>(Geometry{std::move(surfaces), std::move(casters)});
+  Filters filters(surfaces, scene.materials);
+  return std::make_shared<const Geometry>(Geometry{std::move(surfaces), std::move(casters), std::move(filters)});
 }
 
 /// How much of the shadow volumes is drawn; no pixel depends on it.
@@ -54,6 +58,21 @@ enum class Extrusion {
   geometryShader,  ///< edges are sent; their sides are made of them on the way. Caps as vertexShader
 };
 
+/// How far along soft shadows are.
+struct SoftProgress {
+  std::size_t light = 0;    ///< of the frame
+  std::size_t samples = 0;  ///< taken of it
+  double error = 0.0;       ///< estimated, as SoftStats has it
+};
+
+/// How lights with an extent are sampled.
+struct SoftSampling {
+  std::size_t samples = 64;  ///< of each such light, at most
+  double enough = 0.0;       ///< no more samples are taken where the estimated error is at most this
+  /// Told after each part of the samples; false ends the light with what there is. Null: nobody wants to know.
+  std::function<bool(const SoftProgress&)> progress = {};
+};
+
 /// One picture's worth of work.
 struct Frame {
   scene::Camera camera;
@@ -61,7 +80,11 @@ struct Frame {
   FinderKind silhouettes = FinderKind::automatic;  ///< who finds them, where the technique needs silhouettes; changes no pixel
   VolumeFill fill = VolumeFill::reduced;
   std::optional<Extrusion> extrusion = {};  ///< none: as the technique was made
-  bool detailed = false;  ///< LightStats::choices and volumeFragments are wanted, which take time of their own
+  /// So many veils of each pixel, the nearest, are lit each by itself; those behind them as the last of these, and without any shadow when it is 0. None: all
+  /// are lit by themselves. For techniques that are `tinted`.
+  std::optional<int> veilLayers = {};
+  SoftSampling soft = {};  ///< for techniques that are `soft`; to all others a light is its centre
+  bool detailed = false;   ///< LightStats::choices and volumeFragments are wanted, which take time of their own
 };
 
 struct PhaseTime {
@@ -84,6 +107,15 @@ inline constexpr std::size_t kCasterChoices = 6;
 /// In words, for people.
 [[nodiscard]] std::string_view reason(CasterChoice choice);
 
+/// What is known of a light with an extent.
+struct SoftStats {
+  std::size_t samples = 0;
+  /// Root of the mean square error of the light over all pixels that show a surface, estimated from how much two halves of the samples differ: mostly
+  /// too high, since the halves complete each other.
+  double error = 0.0;
+  std::size_t umbra = 0, penumbra = 0;  ///< pixels whose surface no sample reaches, and some
+};
+
 /// What was done for one light, for --stats.
 struct LightStats {
   std::string method;  ///< for example "zpass", "zfail", "ray_traced"
@@ -99,6 +131,7 @@ struct LightStats {
   std::size_t castersBehind = 0;   ///< components whose volumes touch no receiver's line of sight
   std::size_t sidesBehind = 0;     ///< further single sides
   std::size_t endlessCasters = 0;  ///< components whose volumes no plane can end
+  std::optional<SoftStats> soft = {};  ///< of lights with an extent, by techniques that are `soft`
   // When the frame is `detailed`, of techniques of shadow volumes:
   std::vector<CasterChoice> choices;  ///< per component
   /// Pixels that the volumes' triangles cover where they are drawn, each triangle by itself: the cost of filling them.
@@ -112,8 +145,9 @@ struct FrameStats {
 
 /// One mask per light of the frame, and what the camera sees.
 struct Shading {
-  SurfaceBuffer surface;
+  SurfaceBuffer surface;  ///< of techniques that are `tinted`: the first opaque surfaces
   std::vector<LightMask> masks;
+  VeilBuffer veils = {};  ///< before `surface`; only of techniques that are `tinted`
   FrameStats stats;
 };
 

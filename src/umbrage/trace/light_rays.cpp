@@ -46,15 +46,6 @@ std::vector<LightRays::Near> castersNear(const Occlusion& occlusion, const Vec4&
   return found;
 }
 
-// Whether `triangle` is the surface the point lies on, or one that lies upon it as far as the resolution can tell.
-bool sameSurface(const Corners& triangle, const Vec3& point, double resolution) {
-  const auto& [a, b, c] = triangle;
-  const Vec3 outside = glm::max(glm::min(a, glm::min(b, c)) - point, point - glm::max(a, glm::max(b, c)));
-  if (std::max({outside.x, outside.y, outside.z}) > 2.0 * resolution)
-    return false;  // most are: the box is quickly asked
-  return distanceToTriangle(point, triangle.a, triangle.b, triangle.c) <= resolution;
-}
-
 /// Of the rays of a packet.
 struct Distances {
   alignas(32) std::array<float, 8> below;    ///< hits at smaller parameters are decided in double precision

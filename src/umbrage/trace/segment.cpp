@@ -35,4 +35,12 @@ bool hides(const Corners& triangle, const Vec3& point, const Vec4& light) {
   return ofLight * ofPoint < 0 && passesInside(point, scene::towardsLight(light, point), triangle);
 }
 
+bool sameSurface(const Corners& triangle, const Vec3& point, double resolution) {
+  const auto& [a, b, c] = triangle;
+  const Vec3 outside = glm::max(glm::min(a, glm::min(b, c)) - point, point - glm::max(a, glm::max(b, c)));
+  if (std::max({outside.x, outside.y, outside.z}) > 2.0 * resolution)
+    return false;  // most are: the box is quickly asked
+  return distanceToTriangle(point, triangle.a, triangle.b, triangle.c) <= resolution;
+}
+
 }  // namespace umbrage::trace

@@ -20,4 +20,7 @@ struct Corners {
 /// REQUIRES: corners in lexicographic order (see lightSide; not checked).
 [[nodiscard]] bool hides(const Corners& triangle, const Vec3& point, const Vec4& light);
 
+/// Whether `triangle` is the surface the point lies on, or one that lies upon it as far as the resolution can tell.
+[[nodiscard]] bool sameSurface(const Corners& triangle, const Vec3& point, double resolution);
+
 }  // namespace umbrage::trace

@@ -99,6 +99,13 @@ Result<tinygltf::Model> parse(const Request& request) {
   return model;
 }
 
+double transmissionOf(const tinygltf::Material& given) {
+  const auto extension = given.extensions.find("KHR_materials_transmission");
+  if (extension == given.extensions.end() || !extension->second.Has("transmissionFactor")) return 0.0;
+  const tinygltf::Value& factor = extension->second.Get("transmissionFactor");
+  return factor.IsNumber() ? std::clamp(factor.GetNumberAsDouble(), 0.0, 1.0) : 0.0;
+}
+
 scene::Material materialOf(const tinygltf::Material& given, std::size_t index) {
   scene::Material m;
   m.name = given.name.empty() ? "material " + std::to_string(index) : given.name;
@@ -107,6 +114,12 @@ scene::Material materialOf(const tinygltf::Material& given, std::size_t index) {
   m.colour = {factor[0], factor[1], factor[2]};
   if (given.alphaMode == "BLEND") m.opacity = factor[3];
   if (given.alphaMode == "MASK") m.opacity = factor[3] >= given.alphaCutoff ? 1.0 : 0.0;
+  if (m.opacity == 0.0) return m;
+  if (const double transmission = transmissionOf(given); transmission > 0.0) {
+    // Its share of what is there passes in the colour, and is not seen of the surface itself.
+    m.filter = (1.0 - m.opacity * (1.0 - transmission)) * m.colour;
+    m.opacity *= 1.0 - transmission;
+  }
   return m;
 }
 

@@ -8,5 +8,6 @@ namespace umbrage::samples::detail {
 [[nodiscard]] scene::Scene tower();
 [[nodiscard]] scene::Scene industrial();
 [[nodiscard]] scene::Scene building();
+[[nodiscard]] scene::Scene pavilion();
 
 }  // namespace umbrage::samples::detail

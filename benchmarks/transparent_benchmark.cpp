@@ -1,0 +1,106 @@
+// Frames with coloured transparent casters beside the opaque shadow volumes of the same scene: paired rounds in one run, 1280 x 720.
+//   build/release/bin/umbrage_transparent_benchmark [ROUNDS [NAME]]   cases whose name has NAME in it
+// Times are medians, in milliseconds; ratios are those of the medians.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <functional>
+#include <numbers>
+
+#include "median.hpp"
+#include "scenes/staged_scene.hpp"
+#include "umbrage/techniques/cpu/registry.hpp"
+
+namespace umbrage::benchmarks {
+namespace {
+
+std::unique_ptr<shadow::Technique> technique(const std::string& name) {
+  for (const auto& entry : techniques::cpuTechniques())
+    if (entry.traits.name == name) return std::move(*entry.create());
+  return nullptr;
+}
+
+/// Every triangle's material is `pick(triangle)`, of all meshes that cast.
+scene::Scene withMaterials(scene::Scene scene, const std::function<std::uint32_t(std::size_t)>& pick) {
+  const auto first = static_cast<std::uint32_t>(scene.materials.size());
+  scene.materials.push_back({"opaque", Vec3(0.7), 1.0});
+  scene.materials.push_back({"red", Vec3(0.9, 0.2, 0.15), 0.4});
+  scene.materials.push_back({"green", Vec3(0.3, 0.85, 0.4), 0.3});
+  scene.materials.push_back({"blue", Vec3(0.3, 0.5, 0.95), 0.5});
+  for (const scene::Instance& instance : scene.instances) {
+    if (!instance.casts) continue;
+    auto mesh = std::make_shared<mesh::Mesh>(*scene.meshes[instance.mesh]);
+    mesh->materials.clear();
+    for (std::size_t t = 0; t < mesh->triangles.size(); ++t) mesh->materials.push_back(first + pick(t));
+    scene.meshes[instance.mesh] = std::move(mesh);
+  }
+  return scene;
+}
+
+struct Case {
+  std::string name;
+  scene::Scene scene;
+  scene::Camera camera;
+  scene::Light light;
+};
+
+Case staged(std::string name, StagedScene stage, std::size_t shot,
+            const std::function<std::uint32_t(std::size_t)>& pick) {
+  return {std::move(name), withMaterials(std::move(stage.scene), pick), stage.shots[shot].camera,
+          stage.shots[shot].light};
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  all.push_back(staged("knot of one glass, 64,800", groovedKnot(), 0, [](std::size_t) { return 3u; }));
+  all.push_back(staged("knot of three glasses, 64,800", groovedKnot(), 0,
+                       [](std::size_t t) { return 1u + static_cast<std::uint32_t>(t / 5400 % 3); }));
+  all.push_back(staged("knot of one glass, 10,000", groovedKnot(250, 20), 0, [](std::size_t) { return 3u; }));
+  const auto everyEighth = [](std::size_t t) {
+    return t / 12 % 8 == 0 ? 1u + static_cast<std::uint32_t>(t / 96 % 3) : 0u;
+  };
+  all.push_back(staged("city, every eighth house of glass, from the air", city(), 0, everyEighth));
+  all.push_back(staged("city, every eighth house of glass, in a street", city(), 1, everyEighth));
+  return all;
+}
+
+double once(shadow::Technique& technique, const Case& c, std::optional<int> layers) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto shading = technique.shade({.camera = c.camera, .lights = {&c.light, 1}, .veilLayers = layers});
+  if (!shading) std::puts(shading.error().text().c_str());
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+void measure(Case c, int rounds) {
+  c.camera.width = 1280, c.camera.height = 720;
+  const auto geometry = shadow::makeGeometry(c.scene);
+  const auto opaque = technique("zpass_cpu"), tinted = technique("transparent_cpu");
+  if (!opaque->prepare(geometry) || !tinted->prepare(geometry)) return;
+  std::vector<double> times[3];
+  for (int i = -1; i < rounds; ++i) {
+    const double t[3] = {once(*opaque, c, {}), once(*tinted, c, 0), once(*tinted, c, {})};
+    for (int k = 0; k < 3 && i >= 0; ++k) times[k].push_back(t[k]);
+  }
+  const auto plain = opaque->shade({.camera = c.camera, .lights = {&c.light, 1}});
+  const auto quick = tinted->shade({.camera = c.camera, .lights = {&c.light, 1}, .veilLayers = 0});
+  const auto shading = tinted->shade({.camera = c.camera, .lights = {&c.light, 1}});
+  const double base = median(times[0]), fast = median(times[1]), full = median(times[2]);
+  fmt::print(
+      "{:48} opaque {:6.1f}   without self-shadows {:6.1f} ({:.2f}x)   with {:6.1f} ({:.2f}x)   {:.2f} veils a pixel\n",
+      c.name, base, fast, fast / base, full, full / base, double(shading->veils.veils.size()) / (1280.0 * 720.0));
+  for (const auto* one : {&plain, &quick, &shading}) {
+    for (const auto& phase : (*one)->stats.phases) fmt::print("    {} {:.1f}", phase.name, phase.milliseconds);
+    fmt::print("\n");
+  }
+}
+
+}  // namespace
+}  // namespace umbrage::benchmarks
+
+int main(int count, char** arguments) {
+  using namespace umbrage::benchmarks;
+  const int rounds = count > 1 ? std::atoi(arguments[1]) : 9;
+  for (Case& c : cases())
+    if (count < 3 || c.name.find(arguments[2]) != std::string::npos) measure(std::move(c), rounds);
+}

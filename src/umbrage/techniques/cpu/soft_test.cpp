@@ -1,0 +1,155 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "support/shapes.hpp"
+#include "umbrage/shadow/light_samples.hpp"
+#include "umbrage/techniques/cpu/registry.hpp"
+
+namespace umbrage::techniques {
+namespace {
+
+using scene::Light;
+
+std::unique_ptr<shadow::Technique> technique(std::string_view name) {
+  for (const auto& entry : cpuTechniques())
+    if (entry.traits.name == name) return std::move(*entry.create());
+  return nullptr;
+}
+
+shadow::Shading shade(std::string_view name, const std::shared_ptr<const shadow::Geometry>& geometry,
+                      const scene::Camera& camera, const Light& light, shadow::SoftSampling sampling) {
+  const auto made = technique(name);
+  EXPECT_TRUE(made->prepare(geometry));
+  auto shading = made->shade({.camera = camera, .lights = {&light, 1}, .soft = std::move(sampling)});
+  EXPECT_TRUE(shading);
+  return std::move(*shading);
+}
+
+std::vector<Light> areaLights() {
+  return {{scene::DiscLight{{4, -3, 8}, {-4, 3, -8}, 0.8}},
+          {scene::RectangleLight{{-3, -3, 7}, {0.8, 0, 0.2}, {0, -0.6, 0.3}}},
+          {scene::SphereLight{{4, -3, 8}, 0.8}},
+          {scene::SunLight{{0.5, 0.4, -1}, Angle::degrees(3)}}};
+}
+
+std::shared_ptr<const shadow::Geometry> yard() {
+  return shadow::makeGeometry(shapes::scene({shapes::box({0, 0, 0}, {2, 2, 3}), shapes::sphere({4, 1, 1}, 1, 32, 16),
+                                             shapes::box({-3, 1, 1}, {-2, 3, 1.2}),
+                                             shapes::quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0})}));
+}
+
+scene::Camera fromTheCorner(int width, int height) {
+  scene::Camera camera;
+  camera.eye = {-4.1, -7.3, 6.2}, camera.target = {1, 1, 0.5}, camera.up = {0, 0, 1};
+  camera.width = width, camera.height = height;
+  return camera;
+}
+
+/// Root of the mean square difference, over all pixels that show a surface and over those in the penumbra.
+struct Errors {
+  double all = 0.0, penumbra = 0.0;
+};
+Errors errors(const shadow::LightMask& mask, const shadow::LightMask& truth) {
+  double sum = 0.0;
+  std::size_t covered = 0, penumbra = 0;
+  for (std::size_t i = 0; i < truth.light.size(); ++i) {
+    if (truth.covered.pixels()[i] == 0) continue;
+    const double d = (int(mask.light.pixels()[i]) - int(truth.light.pixels()[i])) / 255.0;
+    sum += d * d;
+    ++covered;
+    penumbra += truth.light.pixels()[i] != 0 && truth.light.pixels()[i] != 255;
+  }
+  return {std::sqrt(sum / double(covered)), std::sqrt(sum / double(std::max<std::size_t>(1, penumbra)))};
+}
+
+TEST(Soft, SixtyFourSamplesAreNearTheTruth) {
+  const auto geometry = yard();
+  const auto camera = fromTheCorner(160, 120);
+  for (const Light& light : areaLights()) {
+    const auto truth = shade("soft_rays", geometry, camera, light, {.samples = 4096});
+    const auto mine = shade("soft_cpu", geometry, camera, light, {.samples = 64});
+    const Errors e = errors(mine.masks[0], truth.masks[0]);
+    const auto& stats = *mine.stats.lights[0].soft;
+    std::printf("error %.4f over all pixels, %.4f in the penumbra; estimated %.4f; umbra %zu, penumbra %zu\n", e.all,
+                e.penumbra, stats.error, stats.umbra, stats.penumbra);
+    EXPECT_LE(e.all, 0.01);
+    EXPECT_GE(stats.error, 0.5 * e.all);
+    EXPECT_EQ(stats.samples, 64u);
+    EXPECT_GT(stats.penumbra, 100u);
+  }
+}
+
+// A half-plane over the ground, its edge parallel to y: what a point of the ground sees of the disc is a segment of a circle.
+TEST(Soft, PenumbraOfAHalfPlaneFollowsItsClosedForm) {
+  constexpr double kHeight = 10.0, kEdge = 4.0, kRadius = 1.0;
+  const auto geometry = shadow::makeGeometry(
+      shapes::scene({shapes::quad({0, -500, kEdge}, {900, -500, kEdge}, {900, 500, kEdge}, {0, 500, kEdge}),
+                     shapes::quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0})}));
+  scene::Camera camera;
+  camera.eye = {-0.3, 0.1, 3.5}, camera.target = {-0.3, 0.1, 0}, camera.up = {0, 1, 0};
+  camera.width = 200, camera.height = 20, camera.fovY = Angle::degrees(3);
+  const Light light{scene::DiscLight{{0, 0, kHeight}, {0, 0, -1}, kRadius}};
+  const auto shading = shade("soft_cpu", geometry, camera, light, {.samples = 4096});
+  const scene::PixelRays rays = scene::pixelRays(camera);
+  double worst = 0.0;
+  std::size_t looked = 0;
+  for (int x = 0; x < camera.width; ++x) {
+    if (shading.surface.triangle(x, 10) == shadow::kNoTriangle) continue;
+    const Vec3 ray = rays.through(x + 0.5, 10.5), point = camera.eye + double(shading.surface.depth(x, 10)) * ray;
+    ASSERT_NEAR(point.z, 0.0, 1e-4);
+    // The edge as seen from the point, carried on to the light's plane; all beyond it is hidden.
+    const double border = std::clamp((-point.x * (kHeight - kEdge) / kEdge) / kRadius, -1.0, 1.0);
+    const double seen = 1.0 - (std::acos(border) - border * std::sqrt(1.0 - border * border)) / std::numbers::pi;
+    worst = std::max(worst, std::abs(shading.masks[0].light(x, 10) / 255.0 - seen));
+    looked += seen > 0.0 && seen < 1.0;
+  }
+  std::printf("worst %.4f of %zu pixels in the penumbra\n", worst, looked);
+  EXPECT_GT(looked, 50u);
+  EXPECT_LE(worst, 0.005);
+}
+
+TEST(Soft, LightsWithoutExtentStayHard) {
+  const auto geometry = yard();
+  const auto camera = fromTheCorner(160, 120);
+  const Light lamp{scene::PointLight{{4, -3, 8}}};
+  EXPECT_EQ(shade("soft_cpu", geometry, camera, lamp, {}).masks[0].light,
+            shade("hybrid_cpu", geometry, camera, lamp, {}).masks[0].light);
+}
+
+TEST(Soft, StopsWhenTheErrorIsSmallEnoughOrTheUserSaysSo) {
+  const auto geometry = yard();
+  const auto camera = fromTheCorner(80, 60);
+  const Light light = areaLights()[0];
+  const auto rough = shade("soft_cpu", geometry, camera, light, {.samples = 4096, .enough = 0.02});
+  EXPECT_LT(rough.stats.lights[0].soft->samples, 4096u);
+  EXPECT_LE(rough.stats.lights[0].soft->error, 0.02);
+  std::size_t told = 0;
+  const auto stopped =
+      shade("soft_cpu", geometry, camera, light, {.samples = 4096, .progress = [&](const shadow::SoftProgress& p) {
+                                                    ++told;
+                                                    return p.samples < 48;
+                                                  }});
+  EXPECT_EQ(stopped.stats.lights[0].soft->samples, 48u);
+  EXPECT_EQ(told, 3u);
+}
+
+TEST(LightSamples, FillTheLightEvenlyAtEveryPowerOfTwo) {
+  const Light disc{scene::DiscLight{{1, 2, 3}, {0, 0, -1}, 2.0}};
+  for (const std::size_t n : {16u, 64u, 256u}) {
+    const auto samples = shadow::lightSamples(disc, 0, n);
+    std::size_t inner = 0, left = 0;
+    for (const auto& sample : samples) {
+      const Vec3 p = std::get<scene::SpotLight>(sample.light.shape).position - Vec3(1, 2, 3);
+      ASSERT_LE(glm::length(p), 2.0);
+      inner += glm::length(p) < std::sqrt(2.0);
+      left += p.x < 0.0;
+    }
+    EXPECT_NEAR(double(inner), double(n) / 2, 1 + double(n) / 16);
+    EXPECT_NEAR(double(left), double(n) / 2, 1 + double(n) / 16);
+  }
+}
+
+}  // namespace
+}  // namespace umbrage::techniques

@@ -1,0 +1,203 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "umbrage/techniques/cpu/registry.hpp"
+
+namespace umbrage::techniques {
+namespace {
+
+using scene::Light;
+
+std::unique_ptr<shadow::Technique> technique(const std::string& name) {
+  for (const auto& entry : cpuTechniques())
+    if (entry.traits.name == name) return std::move(*entry.create());
+  return nullptr;
+}
+
+shadow::Shading shade(const std::string& name, const scene::Scene& scene, const scene::Camera& camera,
+                      const std::vector<Light>& lights, std::optional<int> veilLayers = {}) {
+  const auto made = technique(name);
+  EXPECT_TRUE(made->prepare(shadow::makeGeometry(scene)));
+  auto shading = made->shade({.camera = camera, .lights = lights, .veilLayers = veilLayers});
+  EXPECT_TRUE(shading);
+  return std::move(*shading);
+}
+
+class Builder {
+ public:
+  Builder() { scene.up = scene::UpAxis::z; }
+  std::uint32_t material(const Vec3& colour, double opacity) {
+    scene.materials.push_back({"", colour, opacity});
+    return static_cast<std::uint32_t>(scene.materials.size() - 1);
+  }
+  void quad(const Vec3& at, const Vec3& u, const Vec3& v, std::uint32_t material) {
+    mesh::Mesh mesh;
+    mesh.positions = {at - u - v, at + u - v, at + u + v, at - u + v};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.materials = {material, material};
+    scene.instances.push_back({"", static_cast<std::uint32_t>(scene.meshes.size())});
+    scene.meshes.push_back(std::make_shared<const mesh::Mesh>(std::move(mesh)));
+  }
+  void triangle(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t material) {
+    mesh::Mesh mesh;
+    mesh.positions = {a, b, c};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.materials = {material};
+    scene.instances.push_back({"", static_cast<std::uint32_t>(scene.meshes.size())});
+    scene.meshes.push_back(std::make_shared<const mesh::Mesh>(std::move(mesh)));
+  }
+  scene::Scene scene;
+};
+
+scene::Camera cameraAt(const Vec3& eye, const Vec3& target, int width = 160, int height = 120) {
+  scene::Camera camera;
+  camera.eye = eye, camera.target = target, camera.up = {0, 0, 1};
+  camera.width = width, camera.height = height;
+  return camera;
+}
+
+scene::Scene soup(std::size_t count, double size, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const auto any = [&] { return Vec3(unit(random), unit(random), unit(random)); };
+  Builder b;
+  for (int i = 0; i < 12; ++i) b.material(any(), i < 9 ? 0.2 + 0.7 * unit(random) : 1.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 at = 4.0 * any() - 2.0;
+    b.triangle(at + size * (any() - 0.5), at + size * (any() - 0.5), at + size * (any() - 0.5),
+               static_cast<std::uint32_t>(12 * unit(random)));
+  }
+  const auto ground = b.material(Vec3(0.8), 1.0);
+  b.quad({0, 0, -2.5}, {5, 0, 0}, {0, 5, 0}, ground);
+  return b.scene;
+}
+
+TEST(Transparent, PanesTakeTheirShareEach) {
+  for (const double t : {0.02, 0.1, 0.5, 0.9, 0.98}) {
+    for (const int n : {1, 2, 3, 7, 16, 64}) {
+      Builder b;
+      const auto ground = b.material(Vec3(0.8), 1.0), pane = b.material(Vec3(1.0), 1.0 - t);
+      b.quad({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, ground);
+      for (int i = 0; i < n; ++i) b.quad({0, 0, 1 + 0.05 * i}, {2, 0, 0}, {0, 2, 0}, pane);
+      for (const Vec3& eye :
+           {Vec3(-6, -5, 0.7), Vec3(-2, -3, 12), Vec3(0.3, 0.2, 1.52)}) {  // beside, above and among them
+        const auto camera = cameraAt(eye, {0.1, 0.05, 0}, 64, 48);
+        for (const char* name : {"transparent_cpu", "transparent_rays"}) {
+          const auto shading = shade(name, b.scene, camera, {Light{scene::PointLight{{0.4, 0.3, 30}}}});
+          // The middle of the picture shows the ground below the panes.
+          EXPECT_NEAR(shadow::partsOf(shading.masks[0].tint(32, 24)).x, std::pow(t, n), 1e-4)
+              << name << " " << t << " " << n << " " << eye.z;
+        }
+      }
+    }
+  }
+}
+
+struct Compared {
+  std::size_t surfaces = 0, off = 0, otherVeils = 0, pixels = 0;
+};
+
+/// Every surface that a pixel shows, by two techniques.
+Compared compare(const shadow::Shading& a, const shadow::Shading& truth) {
+  Compared out;
+  const auto differ = [](const shadow::Tint& p, const shadow::Tint& q) {
+    const Vec3 d = glm::abs(shadow::partsOf(p) - shadow::partsOf(q));
+    return std::max({d.x, d.y, d.z}) > 1.0 / 255.0;
+  };
+  for (std::size_t i = 0; i < truth.surface.triangle.size(); ++i) {
+    ++out.pixels;
+    const auto mine = a.veils.at(i), theirs = truth.veils.at(i);
+    const bool same = std::ranges::equal(mine, theirs, {}, &shadow::Veil::triangle, &shadow::Veil::triangle) &&
+                      a.surface.triangle.pixels()[i] == truth.surface.triangle.pixels()[i];
+    if (!same) {
+      ++out.otherVeils;
+      continue;
+    }
+    for (std::size_t l = 0; l < truth.masks.size(); ++l) {
+      ++out.surfaces;
+      out.off += differ(a.masks[l].tint.pixels()[i], truth.masks[l].tint.pixels()[i]);
+      for (std::size_t k = 0; k < mine.size(); ++k) {
+        ++out.surfaces;
+        out.off += differ(a.masks[l].veils[a.veils.first[i] + k], truth.masks[l].veils[truth.veils.first[i] + k]);
+      }
+    }
+  }
+  return out;
+}
+
+TEST(Transparent, HundredsOfPanesAddUp) {
+  for (const auto& [t, n] : {std::pair{0.995, 400}, {0.999, 900}, {1e-3, 300}, {0.0, 300}}) {
+    Builder b;
+    const auto ground = b.material(Vec3(0.8), 1.0), pane = b.material(Vec3(1.0, 1.0, t), 0.0);  // blue alone is taken
+    b.quad({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, ground);
+    for (int i = 0; i < n; ++i) b.quad({0, 0, 1 + 0.01 * i}, {2, 0, 0}, {0, 2, 0}, pane);
+    const auto shading = shade("transparent_cpu", b.scene, cameraAt({-6, -5, 0.7}, {0.1, 0.05, 0}, 32, 24),
+                               {Light{scene::PointLight{{0.4, 0.3, 60}}}});
+    const Vec3 light = shadow::partsOf(shading.masks[0].tint(16, 12));
+    EXPECT_NEAR(light.x, 1.0, 1e-4);
+    EXPECT_NEAR(light.z, std::pow(t, n), 1e-4) << t << " " << n;
+  }
+}
+
+TEST(Transparent, TheOrderOfCastersChangesNothing) {
+  const std::vector<Light> lights{{scene::PointLight{{3, -2, 6}}}};
+  auto scene = soup(400, 1.2, 3);
+  const auto camera = cameraAt({-7, -6, 4}, {0.2, 0.1, -0.3});
+  const auto first = shade("transparent_cpu", scene, camera, lights);
+  std::shuffle(scene.instances.begin(), scene.instances.end(), std::mt19937(5));
+  const auto second = shade("transparent_cpu", scene, camera, lights);
+  EXPECT_EQ(first.masks[0].tint, second.masks[0].tint);
+  EXPECT_EQ(first.masks[0].veils, second.masks[0].veils);
+}
+
+TEST(Transparent, OpaqueScenesAreThoseOfTheOpaqueTechniques) {
+  auto scene = soup(2000, 0.6, 9);
+  for (scene::Material& material : scene.materials) material.opacity = 1.0;
+  const std::vector<Light> lights{{scene::PointLight{{3, -2, 6}}}};
+  const auto camera = cameraAt({-7, -6, 4}, {0.2, 0.1, -0.3});
+  const auto opaque = shade("zpass_cpu", scene, camera, lights),
+             tinted = shade("transparent_cpu", scene, camera, lights);
+  EXPECT_TRUE(tinted.veils.empty());
+  EXPECT_EQ(opaque.masks[0].light, tinted.masks[0].light);
+  EXPECT_EQ(opaque.surface.triangle, tinted.surface.triangle);
+}
+
+TEST(Transparent, FewerLayersAreTheFirstOfAll) {
+  const std::vector<Light> lights{{scene::PointLight{{3, -2, 6}}}};
+  const auto scene = soup(300, 1.5, 7);
+  const auto camera = cameraAt({-7, -6, 4}, {0.2, 0.1, -0.3});
+  const auto all = shade("transparent_cpu", scene, camera, lights);
+  for (const int layers : {0, 1, 2}) {
+    const auto some = shade("transparent_cpu", scene, camera, lights, layers);
+    EXPECT_EQ(some.masks[0].tint, all.masks[0].tint) << layers;
+    for (std::size_t i = 0; i < all.surface.triangle.size(); ++i)
+      for (std::size_t k = 0; k < std::min<std::size_t>(all.veils.at(i).size(), std::size_t(layers)); ++k)
+        ASSERT_EQ(some.masks[0].veils[all.veils.first[i] + k], all.masks[0].veils[all.veils.first[i] + k]);
+  }
+}
+
+TEST(Transparent, SoupsAreAsRaysSeeThem) {
+  const std::vector<Light> lights{{scene::PointLight{{3, -2, 6}}},
+                                  {scene::DirectionalLight{{0.4, 0.3, -1}}},
+                                  {scene::PointLight{{0.1, 0.2, 0.3}}},
+                                  {scene::SpotLight{{-4, 1, 5}, {4, -1, -5}, Angle::degrees(25)}}};
+  for (const auto& [count, size] : {std::pair<std::size_t, double>{300, 1.5}, {2000, 0.6}, {10000, 0.35}}) {
+    const auto scene = soup(count, size, 7);
+    for (const Vec3& eye : {Vec3(-7, -6, 4), Vec3(0.05, -0.1, 0.2)}) {
+      const auto camera = cameraAt(eye, {0.2, 0.1, -0.3});
+      const auto mine = shade("transparent_cpu", scene, camera, lights),
+                 truth = shade("transparent_rays", scene, camera, lights);
+      const Compared c = compare(mine, truth);
+      std::printf("%zu triangles, eye %.1f: %zu pixels, %zu with other surfaces; of %zu surfaces %zu off\n", count,
+                  eye.x, c.pixels, c.otherVeils, c.surfaces, c.off);
+      EXPECT_LE(c.otherVeils, c.pixels / 1000);
+      EXPECT_LE(c.off, c.surfaces / 10000);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace umbrage::techniques
