@@ -1,8 +1,11 @@
 #include <Inventor/SoDB.h>
 #include <Inventor/SoInput.h>
 #include <Inventor/nodes/SoPerspectiveCamera.h>
+#include <Inventor/nodes/SoPointLight.h>
 #include <Inventor/nodes/SoTranslation.h>
 #include <gtest/gtest.h>
+
+#include <optional>
 
 #include "coin/scenes.hpp"
 #include "coin/stage.hpp"
@@ -161,21 +164,53 @@ TEST(Picture, WithoutAStencilIsCoinsOwnAndSaysSo) {
   EXPECT_EQ(largestDifference(picture, stage->draw(root.get()), [](int, int) { return true; }).most, 0);
 }
 
-TEST(Picture, BelowACachedNodeIsCoinsOwnAndSaysSo) {
+/// Coin's own number of render caches for as long as it lives; the other tests have none.
+class CachesAsCoinHasThem {
+ public:
+  CachesAsCoinHasThem() { SoSeparator::setNumRenderCaches(2); }
+  CachesAsCoinHasThem(const CachesAsCoinHasThem&) = delete;
+  CachesAsCoinHasThem& operator=(const CachesAsCoinHasThem&) = delete;
+  ~CachesAsCoinHasThem() { SoSeparator::setNumRenderCaches(0); }
+};
+
+TEST(Picture, HasItsShadowsInEveryFrameUnderCoinsCaches) {
   STAGE_OR_SKIP(stage);
-  SoSeparator::setNumRenderCaches(2);
-  const auto root = sceneOf("Separator { " + kCamera + " Separator { renderCaching ON DEF GROUP ExactShadowGroup { " +
-                            kThreeLights + kSolids + "} } }");
-  for (int i = 0; i < 4; ++i) stage->draw(root.get());
-  const auto error = groupOf(root.get())->lastError();
-  SoSeparator::setNumRenderCaches(0);
+  const CachesAsCoinHasThem caches;
+  for (const std::string caching : {"AUTO", "ON"}) {
+    const auto root =
+        sceneOf("Separator { " + kCamera + " Separator { renderCaching " + caching +
+                " Separator { Cube { } DEF GROUP ExactShadowGroup { " + kThreeLights + kSolids + "} } } }");
+    auto* group = groupOf(root.get());
+    const auto first = stage->draw(root.get());
+    expectTrueShadows(*group, caching);
+    EXPECT_GT(group->report().passes, 3u);
+    for (int frame = 0; frame < 40; ++frame) {
+      const auto picture = stage->draw(root.get());
+      ASSERT_FALSE(group->lastError()) << caching << " frame " << frame << ": " << group->lastError()->text();
+      ASSERT_EQ(largestDifference(first, picture, [](int, int) { return true; }).pixels, 0u)
+          << caching << " frame " << frame;
+    }
+    find<SoPointLight>(root.get(), "LAMP")->location = SbVec3f(-3, 5, 4);
+    EXPECT_GT(largestDifference(first, stage->draw(root.get()), [](int, int) { return true; }).pixels, 1000u)
+        << caching;
+    expectTrueShadows(*group, caching);
+  }
+}
+
+TEST(Picture, OfAGroupInsideAnotherIsTheOutersAndSaysSo) {
+  STAGE_OR_SKIP(stage);
+  const auto root = sceneOf(room("", kThreeLights, "DEF INNER ExactShadowGroup { " + kSolids + "}"));
+  stage->draw(root.get());
+  EXPECT_FALSE(groupOf(root.get())->lastError());
+  expectTrueShadows(*groupOf(root.get()), "nested");
+  const auto& error = find<SoExactShadowGroup>(root.get(), "INNER")->lastError();
   ASSERT_TRUE(error);
-  EXPECT_NE(error->message.find("renderCaching"), std::string::npos);
+  EXPECT_NE(error->message.find("inside another"), std::string::npos) << error->text();
 }
 
 TEST(Picture, ShowsCachedShapesBelowWithTheRightLights) {
   STAGE_OR_SKIP(stage);
-  SoSeparator::setNumRenderCaches(2);
+  auto caches = std::make_optional<CachesAsCoinHasThem>();
   const auto root = sceneOf(room("", "", "Separator { renderCaching ON " + kThreeLights + kSolids + "}"));
   auto* group = groupOf(root.get());
   group->isActive = FALSE;
@@ -183,7 +218,7 @@ TEST(Picture, ShowsCachedShapesBelowWithTheRightLights) {
   group->isActive = TRUE;
   image::RgbaImage picture;
   for (int i = 0; i < 4; ++i) picture = stage->draw(root.get());
-  SoSeparator::setNumRenderCaches(0);
+  caches.reset();
   expectTrueShadows(*group, "cached");
   expectCoinsOwnPicture(*stage, root.get(), *group, picture);
 }

@@ -29,8 +29,8 @@ void init();
 /// 3. Shapes that Coin puts off until all others are drawn (transparent ones, by most types of transparency, and annotations) are drawn once, then, and in
 ///    full light.
 /// 4. The OpenGL state is given back as Coin's own traversal leaves it, but for the stencil buffer inside the viewport, which is used and left at 0.
-/// Where shadows cannot be drawn (OpenGL older than 4.5, no stencil, a render cache being built around this node) the scene is drawn as
-/// a separator draws it, and lastError() says why.
+/// Where shadows cannot be drawn (OpenGL older than 4.5, no stencil, inside another such node, whose shadows all shapes have) the scene is drawn
+/// as a separator draws it, and lastError() says why.
 ///
 /// In files: `ExactShadowGroup { method AUTOMATIC .. }`. Several viewers may show one scene.
 /// CAVEAT: lights before the node shine everywhere. OpenGL's limit of lights (mostly 8) is Coin's. A light node that stands at several places casts

@@ -34,7 +34,9 @@ class ManyPasses {
  public:
   ManyPasses(SoState* state, std::uint32_t cacheContext) : state_(state) {
     const SbBool remote = SoGLCacheContextElement::getIsRemoteRendering(state);
-    if (state->isCacheOpen()) SoCacheElement::invalidate(state);
+    SoCacheElement::invalidate(
+        state);  // also where none is open: separators above count the frames until they open one
+    running().push_back(state);
     SoGLCacheContextElement::shouldAutoCache(state, SoGLCacheContextElement::DONT_AUTO_CACHE);
     state->push();
     SoGLCacheContextElement::set(state, static_cast<int>(cacheContext), FALSE, remote);
@@ -42,9 +44,18 @@ class ManyPasses {
   }
   ManyPasses(const ManyPasses&) = delete;
   ManyPasses& operator=(const ManyPasses&) = delete;
-  ~ManyPasses() { state_->pop(); }
+  ~ManyPasses() {
+    state_->pop();
+    running().pop_back();
+  }
+  /// Whether what draws now stands inside another group that draws its passes.
+  static bool isInside(const SoState* state) { return std::ranges::find(running(), state) != running().end(); }
 
  private:
+  static std::vector<const SoState*>& running() {
+    static std::vector<const SoState*> states;
+    return states;
+  }
   SoState* state_;
 };
 
@@ -130,8 +141,8 @@ void Engine::render(SoGLRenderAction* action, const Settings& settings, const Dr
   Result<void> can;
   if (settings.sceneType == SceneType::withoutShadows)
     can = fail(ErrorCode::usage, "shadows are switched off");
-  else if (state->isCacheOpen())
-    can = fail(ErrorCode::device, "no shadows: a node above has renderCaching ON");
+  else if (ManyPasses::isInside(state))
+    can = fail(ErrorCode::usage, "no shadows of its own: it stands inside another group or manager that makes them");
   else
     can = checkTarget();
   if (can) {
