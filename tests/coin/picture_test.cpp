@@ -1,5 +1,6 @@
 #include <Inventor/SoDB.h>
 #include <Inventor/SoInput.h>
+#include <Inventor/actions/SoSearchAction.h>
 #include <Inventor/nodes/SoPerspectiveCamera.h>
 #include <Inventor/nodes/SoPointLight.h>
 #include <Inventor/nodes/SoTranslation.h>
@@ -34,6 +35,23 @@ image::RgbaImage judged(Stage& stage, SoNode* root, const std::string& what) {
   expectCoinsOwnPicture(stage, root, *group, picture);
   save(picture, "coin_" + what);
   return picture;
+}
+
+/// Masks know pixels as covered just where OpenGL's depth says that something was drawn, but for the borders of shapes.
+void expectCoversWhatIsDrawn(const Stage& stage, const SoExactShadowGroup& group) {
+  ASSERT_FALSE(group.report().lights.empty());
+  const auto& covered = group.report().lights.at(0).mask.covered;
+  const auto depth = stage.depth();
+  std::size_t wrong = 0;
+  for (int y = 1; y + 1 < kHeight; ++y) {
+    for (int x = 1; x + 1 < kWidth; ++x) {
+      bool found = false;
+      for (const int v : {y - 1, y, y + 1})
+        for (const int u : {x - 1, x, x + 1}) found |= (covered(u, v) != 0) == (depth(x, y) < 1.0f);
+      wrong += !found;
+    }
+  }
+  EXPECT_EQ(wrong, 0u);
 }
 
 std::size_t shadowed(const LightShadow& light) {
@@ -73,6 +91,51 @@ TEST(Picture, KnowsTheCameraInsideTheGroupToo) {
       0);
   EXPECT_EQ(
       largestDifference(expected, judged(*stage, below.get(), "camera_below"), [](int, int) { return true; }).most, 0);
+}
+
+TEST(Picture, IsSeenByTheCameraInsideWhereThereIsOneBeforeToo) {
+  STAGE_OR_SKIP(stage);
+  const std::string other =
+      "PerspectiveCamera { position -2 5 9 orientation -1 -0.2 0 0.5 nearDistance 0.5 farDistance 40 }\n";
+  const auto both = sceneOf(room("", kCamera + kThreeLights, kSolids, other));
+  const auto one = sceneOf(room("", kThreeLights, kSolids));
+  const auto expected = stage->draw(one.get());
+  EXPECT_EQ(largestDifference(expected, stage->draw(both.get()), [](int, int) { return true; }).most, 0);
+}
+
+TEST(Picture, IsSeenByCamerasUnderTransforms) {
+  STAGE_OR_SKIP(stage);
+  const std::string moved = "Translation { translation 3 -1 2 } Rotation { rotation 0 1 0 0.4 }\n";
+  const std::string back = "Rotation { rotation 0 1 0 -0.4 } Translation { translation -3 1 -2 }\n";
+  for (const auto& before : {moved + kCamera + back, "TransformSeparator { " + moved + kCamera + "}\n", moved + kCamera,
+                             "TransformSeparator { Scale { scaleFactor 2 2 2 } " + kCamera + "}\n"}) {
+    SCOPED_TRACE(before);
+    const auto root = sceneOf(room("", kThreeLights, kSolids, before));
+    stage->draw(root.get());
+    expectCoversWhatIsDrawn(*stage, *groupOf(root.get()));
+    const auto inside = sceneOf(room("", before + kThreeLights, kSolids, ""));
+    stage->draw(inside.get());
+    expectCoversWhatIsDrawn(*stage, *groupOf(inside.get()));
+  }
+}
+
+TEST(Picture, OfOneEyeIsRightOrRefused) {
+  STAGE_OR_SKIP(stage);
+  const auto inside = sceneOf(room("", kCamera + kThreeLights, kSolids, ""));
+  const auto before = sceneOf(room("", kThreeLights, kSolids));
+  for (const auto* root : {&inside, &before}) {
+    SoSearchAction search;
+    search.setType(SoPerspectiveCamera::getClassTypeId());
+    search.apply(root->get());
+    auto* camera = static_cast<SoCamera*>(inventor::FullPath(*search.getPath()).tail());
+    camera->setStereoAdjustment(3);
+    camera->setStereoMode(SoCamera::LEFT_VIEW);
+    stage->draw(root->get());
+    auto* group = groupOf(root->get());
+    if (root == &before) expectCoversWhatIsDrawn(*stage, *group);
+    EXPECT_EQ(group->lastError().has_value(), root == &inside);
+    EXPECT_EQ(group->report().lights.empty(), root == &inside);
+  }
 }
 
 TEST(Picture, HasEveryViewThatCoinHas) {

@@ -100,4 +100,11 @@ image::RgbaImage Stage::picture() const {
   return out;
 }
 
+image::Image<float> Stage::depth() const {
+  image::Image<float> out(width_, height_);
+  for (int y = 0; y < height_; ++y)
+    glReadPixels(0, height_ - 1 - y, width_, 1, GL_DEPTH_COMPONENT, GL_FLOAT, out.row(y));
+  return out;
+}
+
 }  // namespace umbrage::coin::test

@@ -45,6 +45,8 @@ class Stage {
   void clear();
   void apply(SoNode* scene);
   [[nodiscard]] image::RgbaImage picture() const;
+  /// What the depth buffer holds, 0 at the near plane and 1 where nothing was drawn; row 0 at the top.
+  [[nodiscard]] image::Image<float> depth() const;
 
   [[nodiscard]] SoGLRenderAction& action() { return action_; }
   [[nodiscard]] bool isSoftware() const { return context_->isSoftware(); }

@@ -76,9 +76,8 @@ void drawPass(SoGLRenderAction* action, const Engine::Draw& draw, Delayed delaye
 
 // As Coin's own drawing has it, where the camera stands before: stereo and jitter are in it. A camera inside was told by the scan.
 std::optional<Sight> sightOf(SoState* state, const Scan& scan) {
-  const SbMatrix& projection = SoProjectionMatrixElement::get(state);
-  if (projection == SbMatrix::identity()) return scan.sight;
-  return Sight{SoViewingMatrixElement::get(state), projection, SoViewportRegionElement::get(state)};
+  const auto before = sightAt(state, scan.cameraToWorld);
+  return scan.ownCamera || !before ? scan.sight : before;
 }
 
 std::vector<Vec4> placesOf(const std::vector<PlacedLight>& lights) {
@@ -179,8 +178,9 @@ Result<void> Engine::drawShadowed(SoGLRenderAction* action, const Settings& sett
 
 Result<Subsets> Engine::shadowsOf(const Scan& scan, const std::optional<View>& view, const Settings& settings,
                                   shadow::PhaseClock& clock) {
-  if (scan.shapes.empty() || !view || scan.lights.size() > kMostLights) forgetShadows();
+  if (scan.shapes.empty() || !view || scan.ownStereo || scan.lights.size() > kMostLights) forgetShadows();
   if (scan.shapes.empty()) return Subsets{};
+  if (scan.ownStereo) return fail(ErrorCode::unsupported, "no shadows: stereo needs its camera before the group");
   if (!view) return fail(ErrorCode::usage, "no shadows: there is no camera");
   if (scan.lights.size() > kMostLights) return fail(ErrorCode::unsupported, "no shadows: more than 64 lights");
   if (auto done = shade(scan, *view, settings, clock); !done) return tl::unexpected(done.error());

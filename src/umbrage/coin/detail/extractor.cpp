@@ -11,12 +11,17 @@
 #include <Inventor/elements/SoLazyElement.h>
 #include <Inventor/elements/SoLightElement.h>
 #include <Inventor/elements/SoMultiTextureImageElement.h>
+#include <Inventor/elements/SoProjectionMatrixElement.h>
+#include <Inventor/elements/SoViewingMatrixElement.h>
 #include <Inventor/elements/SoViewportRegionElement.h>
 #include <Inventor/misc/SoState.h>
+#include <Inventor/nodes/SoCamera.h>
 #include <Inventor/nodes/SoLight.h>
 #include <Inventor/nodes/SoShape.h>
 
 #include <algorithm>
+#include <glm/matrix.hpp>
+#include <ranges>
 #include <unordered_map>
 
 #include "umbrage/coin/detail/lights.hpp"
@@ -87,6 +92,16 @@ struct Entry {
 
 }  // namespace
 
+// Coin tells OpenGL to leave the transforms above a camera first and to go into the camera's own space then, but notes both in the other order.
+std::optional<Sight> sightAt(SoState* state, const Mat4& cameraToWorld) {
+  const SbMatrix& projection = SoProjectionMatrixElement::get(state);
+  if (projection == SbMatrix::identity()) return std::nullopt;
+  Sight sight{SoViewingMatrixElement::get(state), projection, SoViewportRegionElement::get(state)};
+  if (cameraToWorld != Mat4(1.0))
+    sight.viewing = coinMatrixOf(cameraToWorld * matrixOf(sight.viewing) * glm::inverse(cameraToWorld));
+  return sight;
+}
+
 /// What is known of shapes, by node id: Coin gives a node another id whenever it changes, and no id twice.
 class Extractor::Memory {
  public:
@@ -128,7 +143,9 @@ class Extractor::Traversal {
   void leave(SoCallbackAction* action, const SoNode* shape);
   void meetLight(SoCallbackAction* action, const SoNode* node);
   void addTriangle(SoState* state, const SoPrimitiveVertex* const (&corners)[3]);
-  void see(SoCallbackAction* action);
+  void meetCamera(SoCallbackAction* action, const SoCamera* camera);
+  void see(SoState* state);
+  [[nodiscard]] bool isInside(SoCallbackAction* action) const;
   void startReading(SoState* state, Veil veil);
   void place(SoCallbackAction* action, std::shared_ptr<const ShapeTriangles> triangles);
   [[nodiscard]] bool isForgotten(const SoPath* path) const;
@@ -141,6 +158,11 @@ class Extractor::Traversal {
   bool again_ = false;
   Scan scan_;
   std::vector<const SoNode*> lightNodes_;
+  struct Camera {
+    SbMatrix viewing;
+    Mat4 toWorld;
+  };
+  std::vector<Camera> cameras_;  ///< before the first shape
   // The shape that is being read:
   bool reading_ = false;
   Entry entry_;
@@ -173,6 +195,11 @@ Scan Extractor::Traversal::run() {
     return SoCallbackAction::CONTINUE;
   };
   action.addPreCallback(SoShadowStyle::getClassTypeId(), style, nullptr);
+  const auto camera = [](void* data, SoCallbackAction* a, const SoNode* n) {
+    self(data).meetCamera(a, static_cast<const SoCamera*>(n));
+    return SoCallbackAction::CONTINUE;
+  };
+  action.addPostCallback(SoCamera::getClassTypeId(), camera, this);
   action.addPreCallback(SoLight::getClassTypeId(), light, this);
   action.addPreCallback(SoVRMLLight::getClassTypeId(), light, this);
   action.addTriangleCallback(SoShape::getClassTypeId(), triangle, this);
@@ -187,7 +214,7 @@ bool Extractor::Traversal::isForgotten(const SoPath* path) const {
 
 Extractor::Traversal::Response Extractor::Traversal::enter(SoCallbackAction* action, const SoNode* shape) {
   SoState* state = action->getState();
-  see(action);
+  if (!scan_.sight) see(state);
   if (action->getDrawStyle() != SoDrawStyle::FILLED) return SoCallbackAction::PRUNE;
   const auto verdict = inventor::judge(action, shape);
   if (verdict == inventor::ShapeVerdict::broken) ++scan_.broken;
@@ -271,16 +298,28 @@ void Extractor::Traversal::addTriangle(SoState* state, const SoPrimitiveVertex* 
   for (const SoPrimitiveVertex* corner : corners) soup.corners.push_back(vectorOf(corner->getPoint()));
 }
 
-void Extractor::Traversal::see(SoCallbackAction* action) {
+bool Extractor::Traversal::isInside(SoCallbackAction* action) const {
+  return inventor::FullPath(*action->getCurPath()).contains(inventor::FullPath(*request_.path).tail());
+}
+
+void Extractor::Traversal::meetCamera(SoCallbackAction* action, const SoCamera* camera) {
   if (scan_.sight) return;
-  const SbMatrix& projection = action->getProjectionMatrix();
-  if (projection == SbMatrix::identity()) return;
-  scan_.sight = Sight{action->getViewingMatrix(), projection, SoViewportRegionElement::get(action->getState())};
+  cameras_.push_back({action->getViewingMatrix(), matrixOf(action->getModelMatrix())});
+  if (!isInside(action)) return;
+  scan_.ownCamera = true;
+  scan_.ownStereo = camera->getStereoMode() != SoCamera::MONOSCOPIC;
+}
+
+// By the camera that says what the state says: those in separators that have ended do not.
+void Extractor::Traversal::see(SoState* state) {
+  const SbMatrix& viewing = SoViewingMatrixElement::get(state);
+  const auto camera = std::ranges::find(std::views::reverse(cameras_), viewing, &Camera::viewing);
+  if (camera != cameras_.rend()) scan_.cameraToWorld = camera->toWorld;
+  scan_.sight = sightAt(state, scan_.cameraToWorld);
 }
 
 void Extractor::Traversal::meetLight(SoCallbackAction* action, const SoNode* node) {
-  const SoNode* group = inventor::FullPath(*request_.path).tail();
-  if (!inventor::FullPath(*action->getCurPath()).contains(group) || !request_.registry->shadows(*node)) return;
+  if (!isInside(action) || !request_.registry->shadows(*node)) return;
   const auto light = lightOf(*node, matrixOf(action->getModelMatrix()));
   if (!light) return;
   // Callbacks show nodes as const; the caller, who has the path, may change them.

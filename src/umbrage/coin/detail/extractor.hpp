@@ -12,6 +12,7 @@
 #include "umbrage/scene/light.hpp"
 
 class SoPath;
+class SoState;
 
 namespace umbrage::coin::detail {
 
@@ -45,6 +46,8 @@ struct Sight {
   SbMatrix viewing, projection;
   SbViewportRegion viewport;
 };
+/// As OpenGL has it. `cameraToWorld`: the model matrix where the camera stands. None without a camera.
+[[nodiscard]] std::optional<Sight> sightAt(SoState* state, const Mat4& cameraToWorld);
 
 /// A scene graph at one moment.
 struct Scan {
@@ -53,6 +56,9 @@ struct Scan {
   std::vector<PlacedLight> lights;  ///< those that shine and cast
   std::vector<SoNode*> manifold;    ///< lights that stand at several places, which are not in `lights`
   std::optional<Sight> sight;       ///< of the first shape; none without a camera before it
+  Mat4 cameraToWorld{1.0};          ///< the model matrix where the camera of that stands
+  bool ownCamera = false;           ///< a camera stands inside, before the first shape
+  bool ownStereo = false;           ///< and it is set to one eye of two
   std::size_t broken = 0;           ///< shapes left out, since they name points that they do not have
 };
 
