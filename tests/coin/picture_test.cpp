@@ -343,6 +343,19 @@ TEST(Picture, LightsThatAreOffAreNone) {
   EXPECT_EQ(groupOf(root.get())->report().passes, 1u);
 }
 
+TEST(Picture, ByALightBeyondAllDistancesIsThatOfItsDirection) {
+  STAGE_OR_SKIP(stage);
+  for (const std::string method : {"RAY_TRACED", "AUTOMATIC", "Z_PASS", "Z_FAIL"}) {
+    const auto far = sceneOf(room("method " + method, "PointLight { location 3e20 5e20 4e20 }", kSolids));
+    const auto sun = sceneOf(room("method " + method, "DirectionalLight { direction -3 -5 -4 }", kSolids));
+    stage->draw(far.get());
+    stage->draw(sun.get());
+    ASSERT_EQ(groupOf(far.get())->report().lights.size(), 1u) << method;
+    EXPECT_EQ(groupOf(far.get())->report().lights[0].mask.light, groupOf(sun.get())->report().lights[0].mask.light)
+        << method;
+  }
+}
+
 TEST(Picture, OfNothingHasAnEmptyReport) {
   STAGE_OR_SKIP(stage);
   const auto root = sceneOf(room("", kOneLight, kSolids));

@@ -156,6 +156,18 @@ TEST_F(Extraction, LightsOfEveryKindStandInTheWorld) {
   EXPECT_NEAR(sun.direction.y, 1.0, 1e-6);
 }
 
+TEST_F(Extraction, LightsBeyondAllDistancesShineFromTheirDirection) {
+  read(
+      "Separator { PointLight { location 3e18 0 0 } PointLight { location 0 1e37 0 } SpotLight { location 0 0 -1e16 } "
+      "PointLight { location 1e12 0 0 } Cube { } }");
+  const Scan found = scan();
+  ASSERT_EQ(found.lights.size(), 4u);
+  const Vec3 towards[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(scene::homogeneous(found.lights[i].light, Vec3(0.0)), Vec4(towards[i], 0.0));
+  EXPECT_EQ(scene::homogeneous(found.lights[3].light, Vec3(0.0)).w, 1.0);
+}
+
 TEST_F(Extraction, OnlyWhatIsRegisteredCasts) {
   read("Separator { PointLight { } DEF A Separator { Cube { } } DEF B Separator { Cube { } } }");
   Registry registry;

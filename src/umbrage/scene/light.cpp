@@ -7,6 +7,8 @@ namespace {
 
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
+bool properPosition(const Vec3& v) { return finite(v) && glm::length(v) <= kFarthestLight; }
+
 bool properDirection(const Vec3& v) {
   const double length = glm::length(v);
   return std::isfinite(length) && length > 1e-150;
@@ -30,9 +32,9 @@ bool insideCone(const Light& light, const Vec3& point) {
 bool isValid(const Light& light) {
   if (!finite(light.colour) || !std::isfinite(light.intensity)) return false;
   if (const auto* sun = std::get_if<DirectionalLight>(&light.shape)) return properDirection(sun->direction);
-  if (const auto* lamp = std::get_if<PointLight>(&light.shape)) return finite(lamp->position);
+  if (const auto* lamp = std::get_if<PointLight>(&light.shape)) return properPosition(lamp->position);
   const auto& spot = std::get<SpotLight>(light.shape);
-  return finite(spot.position) && properDirection(spot.direction) && spot.cutoff > Angle() &&
+  return properPosition(spot.position) && properDirection(spot.direction) && spot.cutoff > Angle() &&
          spot.cutoff <= Angle::degrees(180);
 }
 
