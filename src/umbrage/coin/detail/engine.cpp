@@ -298,7 +298,8 @@ void Engine::forgetShadows() {
 const ShadowReport& Engine::report() const {
   if (!reportIsOld_) return report_;
   reportIsOld_ = false;
-  report_ = {geometry_, view_ ? view_->pinhole : std::nullopt, {}, passes_, phases_, masks_.used()};
+  report_ = {geometry_, {}, view_ ? view_->pinhole : std::nullopt, {}, passes_, phases_, masks_.used()};
+  if (view_ && geometry_ == builder_.world().geometry) report_.unseen = Unseen(builder_.world(), *view_).all();
   for (std::size_t i = 0; i < reach_.masks.size(); ++i) {
     report_.lights.push_back({lights_[i].node, lights_[i].light, reach_.masks[i], reach_.masks[i]});
     cutCone(report_.lights.back().mask, lights_[i].light, *view_, geometry_->surfaces, reach_.triangle);

@@ -147,7 +147,7 @@ class Extractor::Traversal {
   void see(SoState* state);
   [[nodiscard]] bool isInside(SoCallbackAction* action) const;
   void startReading(SoState* state, Veil veil);
-  void place(SoCallbackAction* action, std::shared_ptr<const ShapeTriangles> triangles);
+  void place(SoCallbackAction* action, const SoNode& shape, std::shared_ptr<const ShapeTriangles> triangles);
   [[nodiscard]] bool isForgotten(const SoPath* path) const;
   [[nodiscard]] float transparencyAt(SoState* state, int index) const;
 
@@ -225,7 +225,7 @@ Extractor::Traversal::Response Extractor::Traversal::enter(SoCallbackAction* act
   if (!forgotten_.empty() && isForgotten(action->getCurPath())) memory_.drop(*shape);
   if (Entry* known = memory_.find(*shape, state, veil)) {
     known->lastMet = memory_.scans;
-    place(action, known->triangles);
+    place(action, *shape, known->triangles);
     return SoCallbackAction::PRUNE;
   }
   startReading(state, std::move(veil));
@@ -256,7 +256,7 @@ void Extractor::Traversal::leave(SoCallbackAction* action, const SoNode* shape) 
   state->pop();
   SoCacheElement::setInvalid(wasInvalid_);
   entry_.triangles = std::make_shared<const ShapeTriangles>(ShapeTriangles{opaque_.finish(), veiled_.finish()});
-  place(action, entry_.triangles);
+  place(action, *shape, entry_.triangles);
   // A cache is invalid when a cache was made inside, of normals or of convex polygons, which then is there the next time.
   const bool keeps = entry_.cache->isValid(state);
   again_ = again_ || (!keeps && !last_);
@@ -265,7 +265,8 @@ void Extractor::Traversal::leave(SoCallbackAction* action, const SoNode* shape) 
   entry_ = {};
 }
 
-void Extractor::Traversal::place(SoCallbackAction* action, std::shared_ptr<const ShapeTriangles> triangles) {
+void Extractor::Traversal::place(SoCallbackAction* action, const SoNode& shape,
+                                 std::shared_ptr<const ShapeTriangles> triangles) {
   if (triangles->opaque == nullptr && triangles->veiled == nullptr) return;
   SoState* state = action->getState();
   const bool styled = state->isElementEnabled(SoShadowStyleElement::getClassStackIndex()) != FALSE;
@@ -273,7 +274,8 @@ void Extractor::Traversal::place(SoCallbackAction* action, std::shared_ptr<const
   scan_.receivers.push_back({(style & SoShadowStyleElement::SHADOWED) != 0, lightsAt(state)});
   scan_.shapes.push_back(
       {std::move(triangles), matrixOf(action->getModelMatrix()),
-       (style & SoShadowStyleElement::CASTS_SHADOW) != 0 && request_.registry->casts(*action->getCurPath())});
+       (style & SoShadowStyleElement::CASTS_SHADOW) != 0 && request_.registry->casts(*action->getCurPath()),
+       culledOf(state, shape)});
 }
 
 float Extractor::Traversal::transparencyAt(SoState* state, int index) const {

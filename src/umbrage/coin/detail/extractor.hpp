@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "umbrage/coin/detail/culling.hpp"
 #include "umbrage/coin/detail/registry.hpp"
 #include "umbrage/mesh/mesh.hpp"
 #include "umbrage/scene/light.hpp"
@@ -27,6 +28,7 @@ struct PlacedShape {
   std::shared_ptr<const ShapeTriangles> triangles;
   Mat4 toWorld{1.0};
   bool casts = true;
+  Culled culled = Culled::none;
   friend bool operator==(const PlacedShape&, const PlacedShape&) = default;
 };
 
