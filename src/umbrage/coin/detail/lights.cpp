@@ -89,9 +89,10 @@ std::optional<scene::Light> lightOf(const SoNode& node, const Mat4& toWorld) {
   return light;
 }
 
-SoSFBool& switchOf(SoNode& node) {
-  if (node.isOfType(SoVRMLLight::getClassTypeId())) return static_cast<SoVRMLLight&>(node).on;
-  return static_cast<SoLight&>(node).on;
+std::vector<SoSFFloat*> brightnessOf(SoNode& node) {
+  if (!node.isOfType(SoVRMLLight::getClassTypeId())) return {&static_cast<SoLight&>(node).intensity};
+  auto& light = static_cast<SoVRMLLight&>(node);
+  return {&light.intensity, &light.ambientIntensity};
 }
 
 scene::Light withoutCone(scene::Light light) {
