@@ -19,6 +19,8 @@ namespace {
 constexpr int kWidth = 320, kHeight = 240;
 // Depths differ by the buffer's precision, and at the borders of shapes: a neighbour's within this part counts.
 constexpr double kSame = 0.02;
+// Pixels that may differ: thin parts, which a pixel's centre just meets or just misses.
+constexpr std::size_t kFew = 4;
 
 struct Range {
   double nearest, farthest;
@@ -116,6 +118,14 @@ std::vector<Scene> scenes() {
       {"VRML faces", with("VRMLShape { geometry VRMLIndexedFaceSet { " + kPane + "} }")},
       {"VRML faces, clockwise", with("VRMLShape { geometry VRMLIndexedFaceSet { ccw FALSE " + kPane + "} }")},
       {"VRML faces, both sides", with("VRMLShape { geometry VRMLIndexedFaceSet { solid FALSE " + kPane + "} }")},
+      {"glass that is drawn opaque", with("TransparencyType { value NONE } Material { transparency 0.5 } "
+                                          "Translation { translation 0 1 3 } Cube { }")},
+      {"a cut-away", room("", kOneLight, "ClipPlane { plane 1 0.2 0.1 0.3 }" + kSolids)},
+      {"two cuts", room("", kOneLight,
+                        "Rotation { rotation 0 1 0 0.3 } ClipPlane { plane -1 0 0 -1.3 } "
+                        "ClipPlane { plane 0 -1 0 -0.5 }" +
+                            kSolids)},
+      {"letters with sides", with("Scale { scaleFactor 0.1 0.1 0.1 } Text3 { string \"Shade\" parts ALL }")},
       {"VRML solids around the eye",
        with("Translation { translation 1 3 8 } VRMLSphere { radius 3 } VRMLCylinder { radius 2 height 4 } "
             "VRMLCone { bottomRadius 2 height 4 }")},
@@ -128,12 +138,9 @@ TEST(Depth, OfWhatIsDrawnIsThatOfWhatShadowsAreMadeFor) {
   for (const Scene& scene : scenes()) {
     const auto root = sceneOf(scene.text);
     stage->draw(root.get());
-    EXPECT_EQ(otherwiseSeen(*stage, root.get()), 0u) << scene.name;
+    EXPECT_LE(otherwiseSeen(*stage, root.get()), kFew) << scene.name;
   }
 }
-
-// Pixels that may differ: thin parts, which a pixel's centre just meets or just misses.
-constexpr std::size_t kFew = 4;
 
 /// Models in which Coin draws what is no triangle, or not where the triangles are, by the ends of their paths.
 const std::map<std::string, std::string>& exceptions() {
@@ -164,13 +171,10 @@ const std::map<std::string, std::string>& exceptions() {
       {"oiv_compliance/text2.iv", "flat text and pictures"},
       {"tessellation/StripAroundHole.iv", "flat text and pictures"},
       {"simple/text.iv", "flat text and pictures"},
-      {"dead_simple/all-iv.iv", "one of everything"},
       {"oiv_compliance/annotation.iv", "annotations, which clear the depth"},
       {"oiv_compliance/materialbinding.iv", "transparent faces, which are drawn and are no surface here"},
-      {"oiv_compliance/clipplane.iv", "clipping planes"},
-      {"oiv_compliance/levelofdetail.iv", "text in space, whose triangles Coin gets wrong"},
+      {"oiv_compliance/levelofdetail.iv", "levels that Coin chooses by what it draws"},
       {"oiv_compliance/text3.iv", "text in space, whose triangles Coin gets wrong"},
-      {"toys/jackInTheBox.iv", "text in space, whose triangles Coin gets wrong"},
       {"household/teapot.iv", "NURBS surfaces, which are no triangles where there is no GLX"},
       {"buildings/Barcelona.iv", "faces that are not flat"},
   };

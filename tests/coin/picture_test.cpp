@@ -356,6 +356,54 @@ TEST(Picture, ByALightBeyondAllDistancesIsThatOfItsDirection) {
   }
 }
 
+TEST(Picture, OfMoreLightsThanOpenGlHasIsThatOfTheFirst) {
+  STAGE_OR_SKIP(stage);
+  std::string eight;
+  for (int i = 0; i < 8; ++i)
+    eight +=
+        "PointLight { intensity 0.15 location " + std::to_string(i % 3 - 1) + " 5 " + std::to_string(i / 3) + " }\n";
+  const auto with = sceneOf(room("", eight + "PointLight { location -3 6 0 color 0 1 0 }", kSolids));
+  const auto without = sceneOf(room("", eight, kSolids));
+  const auto picture = stage->draw(with.get());
+  ASSERT_TRUE(groupOf(with.get())->lastError());
+  EXPECT_NE(groupOf(with.get())->lastError()->message.find("too few lights"), std::string::npos);
+  EXPECT_EQ(largestDifference(picture, stage->draw(without.get()), [](int, int) { return true; }).most, 0);
+  EXPECT_FALSE(groupOf(without.get())->lastError());
+}
+
+TEST(Picture, KnowsNothingOfShapesUnderAnotherCamera) {
+  STAGE_OR_SKIP(stage);
+  const std::string hud =
+      "OrthographicCamera { position 0 0 5 nearDistance 1 farDistance 10 height 2 }\n"
+      "Translation { translation 0.9 0.8 0 } Cube { width 0.4 height 0.2 depth 0.4 }\n";
+  const auto plain = sceneOf(room("", kOneLight, kSolids));
+  stage->draw(plain.get());
+  const auto& expected = groupOf(plain.get())->report().lights.at(0).mask.light;
+  for (const auto& [shapes, told] : {std::pair{"Separator { " + hud + "}", true},
+                                     std::pair{"Separator { LightModel { model BASE_COLOR } " + hud + "}", false},
+                                     std::pair{"Annotation { " + hud + "}", false}}) {
+    const auto root = sceneOf(room("", kOneLight, kSolids + shapes));
+    stage->draw(root.get());
+    EXPECT_EQ(groupOf(root.get())->report().lights.at(0).mask.light, expected) << shapes;
+    EXPECT_EQ(groupOf(root.get())->lastError().has_value(), told) << shapes;
+  }
+}
+
+TEST(Picture, HandlesOfManipulatorsCastNothing) {
+  STAGE_OR_SKIP(stage);
+  const auto root = sceneOf(room("", kOneLight, kSolids + "Separator { TrackballManip { } } DragPointDragger { }"));
+  const auto plain = sceneOf(room("", kOneLight, kSolids));
+  const auto casting = [&](SoNode* scene) {
+    stage->draw(scene);
+    std::size_t count = 0;
+    for (const std::uint8_t casts : groupOf(scene)->report().geometry->surfaces.casts) count += casts;
+    return count;
+  };
+  EXPECT_EQ(casting(root.get()), casting(plain.get()));
+  EXPECT_GT(groupOf(root.get())->report().geometry->surfaces.triangles.size(),
+            groupOf(plain.get())->report().geometry->surfaces.triangles.size());
+}
+
 TEST(Picture, OfNothingHasAnEmptyReport) {
   STAGE_OR_SKIP(stage);
   const auto root = sceneOf(room("", kOneLight, kSolids));

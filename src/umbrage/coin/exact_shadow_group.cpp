@@ -6,6 +6,7 @@
 #include <Inventor/actions/SoGetMatrixAction.h>
 #include <Inventor/annex/FXViz/elements/SoShadowStyleElement.h>
 #include <Inventor/annex/FXViz/nodes/SoShadowGroup.h>
+#include <Inventor/elements/SoShapeStyleElement.h>
 #include <Inventor/misc/SoState.h>
 
 #include "umbrage/coin/detail/engine.hpp"
@@ -18,6 +19,7 @@ void init() {
   if (SoExactShadowGroup::getClassTypeId() != SoType::badType()) return;
   SoShadowGroup::init();                              // for SoShadowStyle, which says what casts
   SO_ENABLE(SoCallbackAction, SoShadowStyleElement);  // which Coin knows only while it draws
+  SO_ENABLE(SoCallbackAction, SoShapeStyleElement);   // and transparency types, too
   SoExactShadowGroup::initClass();
 }
 

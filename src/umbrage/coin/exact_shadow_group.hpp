@@ -34,7 +34,7 @@ void init();
 ///
 /// In files: `ExactShadowGroup { method AUTOMATIC .. }`. Several viewers may show one scene.
 /// CAVEAT: lights before the node shine everywhere. OpenGL's limit of lights (mostly 8) is Coin's. A light node that stands at several places casts
-/// no shadows, and lastError() says so. What Coin cuts off by clipping planes or by the camera's near plane casts and hides all the same.
+/// no shadows, and lastError() says so. What the camera's near plane cuts off casts and hides all the same.
 class SoExactShadowGroup : public SoSeparator {
   typedef SoSeparator inherited;
   SO_NODE_HEADER(SoExactShadowGroup);

@@ -4,6 +4,7 @@
 #include <Inventor/caches/SoGLRenderCache.h>
 #include <Inventor/elements/SoCacheElement.h>
 #include <Inventor/elements/SoGLCacheContextElement.h>
+#include <Inventor/elements/SoGLLightIdElement.h>
 #include <Inventor/elements/SoModelMatrixElement.h>
 #include <Inventor/elements/SoProjectionMatrixElement.h>
 #include <Inventor/elements/SoShapeStyleElement.h>
@@ -58,11 +59,6 @@ class ManyPasses {
   }
   SoState* state_;
 };
-
-// Whether Coin blends at all.
-bool drawsTransparent(SoState* state) {
-  return SoShapeStyleElement::getTransparencyType(state) != SoGLRenderAction::NONE;
-}
 
 void drawPass(SoGLRenderAction* action, const Engine::Draw& draw, Delayed delayed) {
   SoState* state = action->getState();
@@ -161,7 +157,8 @@ Result<void> Engine::drawShadowed(SoGLRenderAction* action, const Settings& sett
   shadow::PhaseClock clock(phases_);
   const ManyPasses passes(state, ownCacheContext(static_cast<std::uint32_t>(action->getCacheContext())));
   const Scan scan = extractor_.scan({action->getCurPath(), SoViewportRegionElement::get(state), &registry_,
-                                     !gl::currentIsEgl(), drawsTransparent(state)});
+                                     !gl::currentIsEgl(), SoShapeStyleElement::getTransparencyType(state),
+                                     static_cast<std::size_t>(SoGLLightIdElement::getMaxGLSources())});
   work_.extractions = extractor_.extractions();
   clock.end("scene");
   ++work_.frames;
@@ -195,6 +192,15 @@ Result<void> Engine::complaints(const Scan& scan) {
   if (scan.broken > 0)
     return fail(ErrorCode::input,
                 std::to_string(scan.broken) + " shapes cast nothing: they name points they do not have");
+  if (scan.beyond > 0)
+    return fail(ErrorCode::input, std::to_string(scan.beyond) + " shapes cast nothing: they reach beyond all measure");
+  if (scan.lightsDropped > 0)
+    return fail(ErrorCode::unsupported,
+                "OpenGL has too few lights: Coin drops the last " + std::to_string(scan.lightsDropped) + " of a shape");
+  if (scan.otherwiseSeen > 0)
+    return fail(ErrorCode::unsupported,
+                std::to_string(scan.otherwiseSeen) +
+                    " lit shapes under another camera cast nothing and show the shadows of what is behind them");
   return {};
 }
 
@@ -211,7 +217,8 @@ void Engine::drawVolumes(SoGLRenderAction* action, const Scan& scan, const Sight
 }
 
 SoSeparator* Engine::volumesOf(const SoPath& path, const Settings& settings) {
-  const Scan scan = extractor_.scan({&path, SbViewportRegion(640, 480), &registry_, false, true});
+  const Scan scan =
+      extractor_.scan({&path, SbViewportRegion(640, 480), &registry_, false, SoGLRenderAction::SORTED_OBJECT_BLEND});
   work_.extractions = extractor_.extractions();
   return volumes_.build(scan, settings, Caps::both, work_);
 }

@@ -1,9 +1,11 @@
 #include "umbrage/coin/detail/extractor.hpp"
 
+#include <Inventor/SbXfBox3f.h>
 #include <Inventor/SoPath.h>
 #include <Inventor/SoPrimitiveVertex.h>
 #include <Inventor/VRMLnodes/SoVRMLLight.h>
 #include <Inventor/actions/SoCallbackAction.h>
+#include <Inventor/actions/SoGLRenderAction.h>
 #include <Inventor/annex/FXViz/elements/SoShadowStyleElement.h>
 #include <Inventor/annex/FXViz/nodes/SoShadowStyle.h>
 #include <Inventor/caches/SoCache.h>
@@ -12,6 +14,7 @@
 #include <Inventor/elements/SoLightElement.h>
 #include <Inventor/elements/SoMultiTextureImageElement.h>
 #include <Inventor/elements/SoProjectionMatrixElement.h>
+#include <Inventor/elements/SoShapeStyleElement.h>
 #include <Inventor/elements/SoViewingMatrixElement.h>
 #include <Inventor/elements/SoViewportRegionElement.h>
 #include <Inventor/misc/SoState.h>
@@ -24,11 +27,12 @@
 #include <ranges>
 #include <unordered_map>
 
+#include "umbrage/coin/detail/clipping.hpp"
 #include "umbrage/coin/detail/lights.hpp"
 #include "umbrage/coin/detail/matrices.hpp"
+#include "umbrage/coin/detail/special_shapes.hpp"
 #include "umbrage/inventor/check.hpp"
 #include "umbrage/inventor/full_path.hpp"
-#include "umbrage/mesh/weld.hpp"
 
 namespace umbrage::coin::detail {
 namespace {
@@ -42,14 +46,16 @@ using CacheRef = std::unique_ptr<SoCache, Uncache>;
 
 /// How a shape's materials let light through.
 struct Veil {
+  bool counts = true;                 ///< false: Coin draws it opaque all the same
   std::vector<float> transparencies;  ///< per material; empty: none is transparent
   bool texture = false;               ///< its texture lets light through somewhere
   friend bool operator==(const Veil&, const Veil&) = default;
 };
 
-Veil veilAt(SoState* state, bool counts) {
+Veil veilAt(SoState* state) {
   Veil veil;
-  if (!counts) return veil;
+  veil.counts = SoShapeStyleElement::getTransparencyType(state) != SoGLRenderAction::NONE;
+  if (!veil.counts) return veil;
   if (state->isElementEnabled(SoMultiTextureImageElement::getClassStackIndex()))
     veil.texture = SoMultiTextureImageElement::containsTransparency(state);
   const SoLazyElement* lazy = SoLazyElement::getInstance(state);
@@ -68,20 +74,6 @@ std::vector<const SoNode*> lightsAt(SoState* state) {
   for (int i = 0; i < lights.getLength(); ++i) nodes.push_back(lights[i]);
   return nodes;
 }
-
-/// One part of a shape while it is read.
-struct Soup {
-  std::vector<Vec3> corners;
-  [[nodiscard]] std::shared_ptr<const mesh::Mesh> finish() const {
-    if (corners.empty()) return nullptr;
-    const mesh::Weld weld = mesh::weld(std::span<const Vec3>(corners));
-    auto mesh = std::make_shared<mesh::Mesh>();
-    for (const std::uint32_t first : weld.first) mesh->positions.push_back(corners[first]);
-    for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
-      mesh->triangles.push_back({weld.remap[i], weld.remap[i + 1], weld.remap[i + 2]});
-    return mesh;
-  }
-};
 
 struct Entry {
   CacheRef cache;
@@ -114,17 +106,55 @@ class Extractor::Memory {
       if (entry.veil == veil && entry.cache->isValid(state)) return &entry;
     return nullptr;
   }
-  void add(const SoNode& shape, Entry entry) { entries_[shape.getNodeId()].push_back(std::move(entry)); }
+  // A node that changed never has its old id again, and of what another state gave only the latest may come back.
+  void add(const SoNode& shape, Entry entry) {
+    const SbUniqueId id = shape.getNodeId();
+    const auto before = ids_.find(&shape);
+    if (before != ids_.end() && before->second != id) entries_.erase(before->second);
+    ids_[&shape] = id;
+    std::erase_if(entries_[id], [&](const Entry& known) { return known.lastMet + 1 < scans; });
+    entries_[id].push_back(std::move(entry));
+  }
   void drop(const SoNode& shape) { entries_.erase(shape.getNodeId()); }
   void tidy() {
     for (auto known = entries_.begin(); known != entries_.end();) {
       std::erase_if(known->second, [&](const Entry& entry) { return entry.lastMet + kScansKept < scans; });
       known = known->second.empty() ? entries_.erase(known) : std::next(known);
     }
+    std::erase_if(ids_, [&](const auto& known) { return !entries_.contains(known.second); });
+    std::erase_if(cuts_, [&](const auto& known) { return known.second.lastMet != scans; });
+  }
+  [[nodiscard]] std::size_t kept() const {
+    std::size_t count = 0;
+    for (const auto& [id, entries] : entries_) count += entries.size();
+    return count;
+  }
+
+  /// What planes leave of a shape: the same object for as long as all are the same.
+  std::shared_ptr<const ShapeTriangles> clip(const std::shared_ptr<const ShapeTriangles>& shape, const Mat4& toWorld,
+                                             const std::vector<ClipPlane>& planes) {
+    const auto [first, last] = cuts_.equal_range(shape.get());
+    for (auto cut = first; cut != last; ++cut) {
+      if (cut->second.toWorld != toWorld || cut->second.planes != planes) continue;
+      cut->second.lastMet = scans;
+      return cut->second.left;
+    }
+    auto left = clipped(shape, toWorld, planes);
+    cuts_.insert({shape.get(), {shape, toWorld, planes, left, scans}});
+    return left;
   }
 
  private:
+  struct Cut {
+    std::shared_ptr<const ShapeTriangles> shape;
+    Mat4 toWorld;
+    std::vector<ClipPlane> planes;
+    std::shared_ptr<const ShapeTriangles> left;
+    std::size_t lastMet;
+  };
   std::unordered_map<SbUniqueId, std::vector<Entry>> entries_;
+  std::unordered_map<const SoNode*, SbUniqueId> ids_;  ///< the last one of each, to be compared only
+  std::unordered_multimap<const ShapeTriangles*, Cut> cuts_;
 };
 
 /// One walk through the graph.
@@ -142,14 +172,17 @@ class Extractor::Traversal {
   Response enter(SoCallbackAction* action, const SoNode* shape);
   void leave(SoCallbackAction* action, const SoNode* shape);
   void meetLight(SoCallbackAction* action, const SoNode* node);
-  void addTriangle(SoState* state, const SoPrimitiveVertex* const (&corners)[3]);
+  void addTriangle(SoCallbackAction* action, const SoPrimitiveVertex* const (&corners)[3]);
   void meetCamera(SoCallbackAction* action, const SoCamera* camera);
   void see(SoState* state);
+  [[nodiscard]] bool isSeenOtherwise(SoCallbackAction* action);
+  void receive(SoState* state, bool shadowed);
   [[nodiscard]] bool isInside(SoCallbackAction* action) const;
   void startReading(SoState* state, Veil veil);
   void place(SoCallbackAction* action, const SoNode& shape, std::shared_ptr<const ShapeTriangles> triangles);
   [[nodiscard]] bool isForgotten(const SoPath* path) const;
   [[nodiscard]] float transparencyAt(SoState* state, int index) const;
+  [[nodiscard]] bool isInSpace(SoCallbackAction* action, const SbVec3f& point) const;
 
   Memory& memory_;
   const ScanRequest& request_;
@@ -163,11 +196,13 @@ class Extractor::Traversal {
     Mat4 toWorld;
   };
   std::vector<Camera> cameras_;  ///< before the first shape
+  SbMatrix viewing_;             ///< of the first shape, as Coin notes it
   // The shape that is being read:
   bool reading_ = false;
   Entry entry_;
   std::optional<inventor::LongBindings> bindings_;
-  Soup opaque_, veiled_;
+  std::vector<Vec3> opaque_, veiled_;  ///< corners
+  std::optional<SbXfBox3f> space_;     ///< where its triangles are worth anything; none: everywhere
   SbBool cacheWasOpen_ = FALSE, wasInvalid_ = FALSE;
 };
 
@@ -185,7 +220,7 @@ Scan Extractor::Traversal::run() {
   const auto triangle = [](void* data, SoCallbackAction* a, const SoPrimitiveVertex* p, const SoPrimitiveVertex* q,
                            const SoPrimitiveVertex* r) {
     const SoPrimitiveVertex* const corners[3] = {p, q, r};
-    self(data).addTriangle(a->getState(), corners);
+    self(data).addTriangle(a, corners);
   };
   action.addPreCallback(SoShape::getClassTypeId(), enterShape, this);
   action.addPostCallback(SoShape::getClassTypeId(), leaveShape, this);
@@ -203,6 +238,7 @@ Scan Extractor::Traversal::run() {
   action.addPreCallback(SoLight::getClassTypeId(), light, this);
   action.addPreCallback(SoVRMLLight::getClassTypeId(), light, this);
   action.addTriangleCallback(SoShape::getClassTypeId(), triangle, this);
+  SoShapeStyleElement::setTransparencyType(action.getState(), request_.transparencyType);
   action.apply(const_cast<SoPath*>(request_.path));
   return std::move(scan_);
 }
@@ -215,19 +251,21 @@ bool Extractor::Traversal::isForgotten(const SoPath* path) const {
 Extractor::Traversal::Response Extractor::Traversal::enter(SoCallbackAction* action, const SoNode* shape) {
   SoState* state = action->getState();
   if (!scan_.sight) see(state);
+  if (isSeenOtherwise(action)) return SoCallbackAction::PRUNE;
   if (action->getDrawStyle() != SoDrawStyle::FILLED) return SoCallbackAction::PRUNE;
   const auto verdict = inventor::judge(action, shape);
   if (verdict == inventor::ShapeVerdict::broken) ++scan_.broken;
   const bool readable =
       verdict == inventor::ShapeVerdict::read || (verdict == inventor::ShapeVerdict::nurbs && request_.hasGlx);
   if (!readable) return SoCallbackAction::PRUNE;
-  Veil veil = veilAt(state, request_.transparencyCounts);
+  Veil veil = veilAt(state);
   if (!forgotten_.empty() && isForgotten(action->getCurPath())) memory_.drop(*shape);
   if (Entry* known = memory_.find(*shape, state, veil)) {
     known->lastMet = memory_.scans;
     place(action, *shape, known->triangles);
     return SoCallbackAction::PRUNE;
   }
+  space_ = letterSpace(*action, *shape);
   startReading(state, std::move(veil));
   bindings_.emplace(const_cast<SoNode*>(shape));  // callbacks show nodes as const
   return SoCallbackAction::CONTINUE;
@@ -236,7 +274,8 @@ Extractor::Traversal::Response Extractor::Traversal::enter(SoCallbackAction* act
 // Coin notes in an open cache which elements are read; the shape's triangles are the same for as long as those match.
 void Extractor::Traversal::startReading(SoState* state, Veil veil) {
   reading_ = true;
-  opaque_ = veiled_ = {};
+  opaque_.clear();
+  veiled_.clear();
   cacheWasOpen_ = state->isCacheOpen();
   wasInvalid_ = SoCacheElement::setInvalid(FALSE);
   state->push();
@@ -255,7 +294,8 @@ void Extractor::Traversal::leave(SoCallbackAction* action, const SoNode* shape) 
   state->setCacheOpen(cacheWasOpen_);
   state->pop();
   SoCacheElement::setInvalid(wasInvalid_);
-  entry_.triangles = std::make_shared<const ShapeTriangles>(ShapeTriangles{opaque_.finish(), veiled_.finish()});
+  entry_.triangles = std::make_shared<const ShapeTriangles>(
+      ShapeTriangles{meshOf(opaque_), meshOf(veiled_), std::max(reachOf(opaque_), reachOf(veiled_))});
   place(action, *shape, entry_.triangles);
   // A cache is invalid when a cache was made inside, of normals or of convex polygons, which then is there the next time.
   const bool keeps = entry_.cache->isValid(state);
@@ -269,13 +309,43 @@ void Extractor::Traversal::place(SoCallbackAction* action, const SoNode& shape,
                                  std::shared_ptr<const ShapeTriangles> triangles) {
   if (triangles->opaque == nullptr && triangles->veiled == nullptr) return;
   SoState* state = action->getState();
+  const Mat4 toWorld = matrixOf(action->getModelMatrix());
+  if (!(reachInWorld(triangles->reach, toWorld) <= kMostReach)) {
+    ++scan_.beyond;
+    return;
+  }
+  if (const auto planes = clipPlanesAt(state); !planes.empty()) {
+    triangles = memory_.clip(triangles, toWorld, planes);
+    if (triangles->opaque == nullptr && triangles->veiled == nullptr) return;
+  }
   const bool styled = state->isElementEnabled(SoShadowStyleElement::getClassStackIndex()) != FALSE;
   const int style = styled ? SoShadowStyleElement::get(state) : SoShadowStyleElement::CASTS_SHADOW_AND_SHADOWED;
-  scan_.receivers.push_back({(style & SoShadowStyleElement::SHADOWED) != 0, lightsAt(state)});
-  scan_.shapes.push_back(
-      {std::move(triangles), matrixOf(action->getModelMatrix()),
-       (style & SoShadowStyleElement::CASTS_SHADOW) != 0 && request_.registry->casts(*action->getCurPath()),
-       culledOf(state, shape)});
+  receive(state, (style & SoShadowStyleElement::SHADOWED) != 0);
+  const bool casts = (style & SoShadowStyleElement::CASTS_SHADOW) != 0 &&
+                     request_.registry->casts(*action->getCurPath()) && !isHandle(*action->getCurPath());
+  scan_.shapes.push_back({std::move(triangles), toWorld, casts, culledOf(state, shape)});
+}
+
+// Of the lights that shine on it Coin hands the first to OpenGL, and drops what is beyond.
+void Extractor::Traversal::receive(SoState* state, bool shadowed) {
+  auto lights = lightsAt(state);
+  if (lights.size() > request_.mostLights) {
+    scan_.lightsDropped = std::max(scan_.lightsDropped, lights.size() - request_.mostLights);
+    lights.resize(request_.mostLights);
+  }
+  scan_.receivers.push_back({shadowed, std::move(lights)});
+}
+
+// Shapes under another camera than the first are no part of the same world; lit ones are told of, unless they are drawn when all else is.
+bool Extractor::Traversal::isSeenOtherwise(SoCallbackAction* action) {
+  if (!scan_.sight) return false;
+  SoState* state = action->getState();
+  if (SoViewingMatrixElement::get(state) == viewing_ &&
+      SoProjectionMatrixElement::get(state) == scan_.sight->projection)
+    return false;
+  const bool lit = SoLazyElement::getLightModel(state) != SoLazyElement::BASE_COLOR;
+  if (lit && !isAnnotation(*action->getCurPath())) ++scan_.otherwiseSeen;
+  return true;
 }
 
 float Extractor::Traversal::transparencyAt(SoState* state, int index) const {
@@ -285,19 +355,25 @@ float Extractor::Traversal::transparencyAt(SoState* state, int index) const {
   return count > 0 ? SoLazyElement::getTransparency(state, std::clamp(index, 0, count - 1)) : 0.0f;
 }
 
-void Extractor::Traversal::addTriangle(SoState* state, const SoPrimitiveVertex* const (&corners)[3]) {
+void Extractor::Traversal::addTriangle(SoCallbackAction* action, const SoPrimitiveVertex* const (&corners)[3]) {
   if (!reading_) return;
   float least = 1.0f, most = 0.0f;
-  if (request_.transparencyCounts) {
-    for (const SoPrimitiveVertex* corner : corners) {
-      const float t = transparencyAt(state, corner->getMaterialIndex());
-      least = std::min(least, t);
-      most = std::max(most, t);
-    }
-    if (least >= 1.0f) return;
+  for (const SoPrimitiveVertex* corner : corners) {
+    if (space_ && !isInSpace(action, corner->getPoint())) return;
+    if (!entry_.veil.counts) continue;
+    const float t = transparencyAt(action->getState(), corner->getMaterialIndex());
+    least = std::min(least, t);
+    most = std::max(most, t);
   }
-  Soup& soup = most > 0.0f || entry_.veil.texture ? veiled_ : opaque_;
-  for (const SoPrimitiveVertex* corner : corners) soup.corners.push_back(vectorOf(corner->getPoint()));
+  if (entry_.veil.counts && least >= 1.0f) return;
+  auto& soup = most > 0.0f || entry_.veil.texture ? veiled_ : opaque_;
+  for (const SoPrimitiveVertex* corner : corners) soup.push_back(vectorOf(corner->getPoint()));
+}
+
+bool Extractor::Traversal::isInSpace(SoCallbackAction* action, const SbVec3f& point) const {
+  SbVec3f world;
+  action->getModelMatrix().multVecMatrix(point, world);
+  return space_->intersect(world) != FALSE;
 }
 
 bool Extractor::Traversal::isInside(SoCallbackAction* action) const {
@@ -314,8 +390,8 @@ void Extractor::Traversal::meetCamera(SoCallbackAction* action, const SoCamera* 
 
 // By the camera that says what the state says: those in separators that have ended do not.
 void Extractor::Traversal::see(SoState* state) {
-  const SbMatrix& viewing = SoViewingMatrixElement::get(state);
-  const auto camera = std::ranges::find(std::views::reverse(cameras_), viewing, &Camera::viewing);
+  viewing_ = SoViewingMatrixElement::get(state);
+  const auto camera = std::ranges::find(std::views::reverse(cameras_), viewing_, &Camera::viewing);
   if (camera != cameras_.rend()) scan_.cameraToWorld = camera->toWorld;
   scan_.sight = sightAt(state, scan_.cameraToWorld);
 }
@@ -352,5 +428,6 @@ Scan Extractor::scan(const ScanRequest& request) {
 void Extractor::forget(const SoNode* node) { forgotten_.push_back(node); }
 
 std::size_t Extractor::extractions() const { return memory_->extractions; }
+std::size_t Extractor::kept() const { return memory_->kept(); }
 
 }  // namespace umbrage::coin::detail
