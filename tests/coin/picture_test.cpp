@@ -4,6 +4,7 @@
 #include <Inventor/nodes/SoPerspectiveCamera.h>
 #include <Inventor/nodes/SoPointLight.h>
 #include <Inventor/nodes/SoTranslation.h>
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -334,6 +335,26 @@ TEST(Picture, CastsNothingWithAStyleThatDoesNotCast) {
   EXPECT_EQ(changed(*stage, floor + "ShadowStyle { style NO_SHADOWING }\n" + solids, "casts_nothing"), 0u);
 }
 
+// Inside shapes and shadows a pixel's samples are all alike.
+TEST(Picture, OfWindowsWithSamplesIsTheSame) {
+  STAGE_OR_SKIP(plain);
+  const auto root = sceneOf(room("", kThreeLights, kSolids));
+  auto* group = groupOf(root.get());
+  const auto expected = plain->draw(root.get());
+  const auto stage = Stage::make(kWidth, kHeight, true, 4);
+  ASSERT_TRUE(stage);
+  const auto picture = stage->draw(root.get());
+  ASSERT_FALSE(group->lastError()) << group->lastError()->text();
+  save(picture, "coin_samples");
+  EXPECT_LT(largestDifference(expected, picture, [](int, int) { return true; }).pixels, 2000u);  // borders
+  expectCoinsOwnPicture(*stage, root.get(), *group, picture);
+  const CachesAsCoinHasThem caches;
+  const auto cached = sceneOf("Separator { renderCaching ON " + room("", kThreeLights, kSolids) + "}");
+  for (int i = 0; i < 4; ++i) stage->draw(cached.get());
+  const auto& error = groupOf(cached.get())->lastError();
+  EXPECT_TRUE(!error || error->message.find("display list") != std::string::npos) << error->text();
+}
+
 TEST(Picture, LightsThatAreOffAreNone) {
   STAGE_OR_SKIP(stage);
   const auto root =
@@ -465,17 +486,41 @@ TEST(Picture, LeavesTheHostsStateAlone) {
   EXPECT_EQ(largestDifference(picture, stage->draw(plain.get()), [](int, int) { return true; }).most, 0);
 }
 
+/// A framebuffer with four samples a pixel.
+class Sampled {
+ public:
+  Sampled() {
+    glCreateFramebuffers(1, &framebuffer_);
+    glCreateRenderbuffers(1, &buffer_);
+    glNamedRenderbufferStorageMultisample(buffer_, 4, GL_DEPTH24_STENCIL8, 16, 16);
+    glNamedFramebufferRenderbuffer(framebuffer_, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, buffer_);
+  }
+  Sampled(const Sampled&) = delete;
+  Sampled& operator=(const Sampled&) = delete;
+  ~Sampled() {
+    glDeleteFramebuffers(1, &framebuffer_);
+    glDeleteRenderbuffers(1, &buffer_);
+  }
+  void bind() const { glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_); }
+
+ private:
+  unsigned framebuffer_ = 0, buffer_ = 0;
+};
+
 // What is done between Coin's passes, in hosts of every state.
 TEST(Picture, StencilsLeaveWildHostsAlone) {
   STAGE_OR_SKIP(stage);
   state::WildHost host(true);
+  const Sampled sampled;
   const std::vector<std::uint8_t> values(12, 5);
   for (std::uint32_t seed = 1; seed <= 200; ++seed) {
     host.randomise(seed);
+    if (seed % 4 == 0) sampled.bind();
     const auto before = host.snapshot();
     {
       gl::HostScope scope;
-      ASSERT_TRUE(gl::writeStencil(scope, values, {3, 4, 4, 3}));
+      const auto written = gl::writeStencil(scope, values, {3, 4, 4, 3});
+      ASSERT_TRUE(written) << written.error().text();
       gl::fillStencil(scope, 7, {0, 0, 9, 9});
     }
     { const gl::StencilWindow window(5, {1, 2, 30, 40}); }
