@@ -23,6 +23,7 @@
 #include "umbrage/gl/context.hpp"
 #include "umbrage/gl/stencil_pixels.hpp"
 #include "umbrage/gl/stencil_window.hpp"
+#include "umbrage/math/box.hpp"
 
 namespace umbrage::coin::detail {
 namespace {
@@ -216,11 +217,29 @@ void Engine::drawVolumes(SoGLRenderAction* action, const Scan& scan, const Sight
   state->pop();
 }
 
+namespace {
+
+// Written volumes without a depth end here, of the scene's diameter: points at infinity leave viewers nothing to aim at.
+constexpr double kWrittenDepth = 3.0;
+
+double diameterOf(const std::vector<PlacedShape>& shapes) {
+  Box3 box;
+  for (const PlacedShape& shape : shapes)
+    for (const auto& mesh : {shape.triangles->opaque, shape.triangles->veiled})
+      if (mesh != nullptr)
+        for (const Vec3& p : mesh->positions) box.add(transformPoint(shape.toWorld, p));
+  return 2.0 * box.radius();
+}
+
+}  // namespace
+
 SoSeparator* Engine::volumesOf(const SoPath& path, const Settings& settings) {
   const Scan scan =
       extractor_.scan({&path, SbViewportRegion(640, 480), &registry_, false, SoGLRenderAction::SORTED_OBJECT_BLEND});
   work_.extractions = extractor_.extractions();
-  return volumes_.build(scan, settings, Caps::both, work_);
+  Settings written = settings;
+  if (!written.volumeDepth) written.volumeDepth = kWrittenDepth * diameterOf(scan.shapes);
+  return volumes_.build(scan, written, Caps::both, work_);
 }
 
 Result<void> Engine::shade(const Scan& scan, const View& view, const Settings& settings, shadow::PhaseClock& clock) {
