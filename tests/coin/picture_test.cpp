@@ -329,6 +329,18 @@ TEST(Picture, ShowsShadowsOnlyOnWhatIsShadowed) {
   EXPECT_EQ(changed(*stage, kSolids, "all_shadowed"), onFloor + onSolids);
 }
 
+TEST(Picture, TakesTheLightsAndCullingOfShadowGroupsForOrdinaryOnes) {
+  STAGE_OR_SKIP(stage);
+  const std::string spot = "SpotLight { location -4 6 2 direction 0.6 -1 -0.3 cutOffAngle 0.5 }\n";
+  const std::string sun = "DirectionalLight { direction 0.7 -1 -0.4 color 0.4 1 0.5 intensity 0.5 }\n";
+  const auto usual = sceneOf(room("", spot + sun, kSolids));
+  const auto theirs =
+      sceneOf(room("", "Shadow" + spot + "Shadow" + sun + "ShadowCulling { mode NO_CULLING }", kSolids));
+  const auto expected = stage->draw(usual.get());
+  EXPECT_EQ(largestDifference(expected, stage->draw(theirs.get()), [](int, int) { return true; }).most, 0);
+  EXPECT_EQ(groupOf(theirs.get())->report().lights.size(), 2u);
+}
+
 TEST(Picture, CastsNothingWithAStyleThatDoesNotCast) {
   STAGE_OR_SKIP(stage);
   const auto [floor, solids] = floorAndSolids();

@@ -23,8 +23,8 @@ void init();
 /// A separator in which every light casts exact shadows of every shape: put the lights and the shapes inside. The camera may stand
 /// before it or inside.
 ///
-/// 1. Every pixel is Coin's own picture with exactly those lights on that reach its surface: where all do, it is Coin's picture to the bit;
-///    materials, textures, fog and shaders are as the user set them.
+/// 1. Every pixel of a surface is Coin's own picture with exactly those lights on that reach its surface: where all do, it is Coin's picture to the bit;
+///    materials, textures, fog and shaders are as the user set them. Lines and points show the shadows of what is behind them.
 /// 2. Whatever changes in the scene graph shows in the next picture, with no call; only what changed is worked out anew (work()).
 /// 3. Shapes that Coin puts off until all others are drawn (transparent ones, by most types of transparency, and annotations) are drawn once, then, and in
 ///    full light.
