@@ -176,7 +176,6 @@ const std::map<std::string, std::string>& exceptions() {
       {"oiv_compliance/levelofdetail.iv", "levels that Coin chooses by what it draws"},
       {"oiv_compliance/text3.iv", "text in space, whose triangles Coin gets wrong"},
       {"household/teapot.iv", "NURBS surfaces, which are no triangles where there is no GLX"},
-      {"buildings/Barcelona.iv", "faces that are not flat"},
   };
   return reasons;
 }

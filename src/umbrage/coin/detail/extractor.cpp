@@ -171,6 +171,7 @@ class Extractor::Traversal {
   static Traversal& self(void* data) { return *static_cast<Traversal*>(data); }
   Response enter(SoCallbackAction* action, const SoNode* shape);
   void leave(SoCallbackAction* action, const SoNode* shape);
+  void readInstead(SoCallbackAction* action, const SoNode* shape, const NodeRef& copy);
   void meetLight(SoCallbackAction* action, const SoNode* node);
   void addTriangle(SoCallbackAction* action, const SoPrimitiveVertex* const (&corners)[3]);
   void meetCamera(SoCallbackAction* action, const SoCamera* camera);
@@ -199,6 +200,7 @@ class Extractor::Traversal {
   SbMatrix viewing_;             ///< of the first shape, as Coin notes it
   // The shape that is being read:
   bool reading_ = false;
+  const SoNode* instead_ = nullptr;  ///< a copy that it is read from
   Entry entry_;
   std::optional<inventor::LongBindings> bindings_;
   std::vector<Vec3> opaque_, veiled_;  ///< corners
@@ -249,6 +251,7 @@ bool Extractor::Traversal::isForgotten(const SoPath* path) const {
 }
 
 Extractor::Traversal::Response Extractor::Traversal::enter(SoCallbackAction* action, const SoNode* shape) {
+  if (instead_ != nullptr) return SoCallbackAction::CONTINUE;
   SoState* state = action->getState();
   if (!scan_.sight) see(state);
   if (isSeenOtherwise(action)) return SoCallbackAction::PRUNE;
@@ -267,8 +270,23 @@ Extractor::Traversal::Response Extractor::Traversal::enter(SoCallbackAction* act
   }
   space_ = letterSpace(*action, *shape);
   startReading(state, std::move(veil));
-  bindings_.emplace(const_cast<SoNode*>(shape));  // callbacks show nodes as const
+  auto* own = const_cast<SoNode*>(shape);  // callbacks show nodes as const
+  if (inventor::hasShortFaces(*shape)) {
+    readInstead(action, shape, hold(own->copy()));
+    return SoCallbackAction::PRUNE;
+  }
+  bindings_.emplace(own);
   return SoCallbackAction::CONTINUE;
+}
+
+// A copy whose faces Coin tells all, at the place and in the state of the shape.
+void Extractor::Traversal::readInstead(SoCallbackAction* action, const SoNode* shape, const NodeRef& copy) {
+  inventor::dropShortFaces(copy.get());
+  bindings_.emplace(copy.get());
+  instead_ = copy.get();
+  copy->callback(action);
+  instead_ = nullptr;
+  leave(action, shape);
 }
 
 // Coin notes in an open cache which elements are read; the shape's triangles are the same for as long as those match.
@@ -287,7 +305,7 @@ void Extractor::Traversal::startReading(SoState* state, Veil veil) {
 }
 
 void Extractor::Traversal::leave(SoCallbackAction* action, const SoNode* shape) {
-  if (!reading_) return;
+  if (!reading_ || instead_ != nullptr) return;
   reading_ = false;
   bindings_.reset();
   SoState* state = action->getState();
