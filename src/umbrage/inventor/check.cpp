@@ -217,7 +217,6 @@ ShapeVerdict judge(SoCallbackAction* action, const SoNode* shape) {
 // Normals and texture coordinates play no part here, so their bindings are emptied rather than trusted.
 void secureBindings(SoNode* shape) {
   shape->enableNotify(FALSE);
-  if (hasShortFaces(*shape)) dropShortFaces(shape);
   if (shape->isOfType(SoIndexedShape::getClassTypeId())) {
     auto* indexed = static_cast<SoIndexedShape*>(shape);
     lengthen(indexed->materialIndex, indexed->coordIndex);
