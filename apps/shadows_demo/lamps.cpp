@@ -53,11 +53,11 @@ Lamps::Lamp Lamps::stood(const char* name, SoLight* light, const SbVec3f& at, co
 Lamps::Lamps(SoGroup& where)
     : where_(where),
       all_{stood("point light 1", point(), {5, 7, 5}, {1, 1, 1}, 0.8f),
-           stood("point light 2", point(), {-4, 7, 5}, {1, 0.75f, 0.5f}, 0.5f),
-           stood("point light 3", point(), {6, 6, -3}, {0.6f, 1, 0.6f}, 0.5f),
-           stood("point light 4", point(), {0, 7.5f, 6}, {0.6f, 0.7f, 1}, 0.5f),
-           stood("the directional light", directional({-0.5f, -1, -0.3f}), {-2, 7, -4}, {1, 1, 0.9f}, 0.5f),
-           stood("the spot light", spot({-0.7f, -1, -0.2f}), {4, 7, 1}, {1, 0.9f, 0.6f}, 0.8f)} {}
+           stood("point light 2", point(), {-4, 7, 5}, {1, 0.75f, 0.5f}, 0.3f),
+           stood("point light 3", point(), {6, 6, -3}, {0.6f, 1, 0.6f}, 0.3f),
+           stood("point light 4", point(), {0, 7.5f, 6}, {0.6f, 0.7f, 1}, 0.3f),
+           stood("the directional light", directional({-0.5f, -1, -0.3f}), {-2, 7, -4}, {1, 1, 0.9f}, 0.3f),
+           stood("the spot light", spot({-0.7f, -1, -0.2f}), {4, 7, 1}, {1, 0.9f, 0.6f}, 0.5f)} {}
 
 Result<void> Lamps::toggle(std::size_t index, coin::ShadowManager& shadows) {
   Lamp& lamp = all_[index];

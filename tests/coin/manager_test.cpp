@@ -1,6 +1,7 @@
 #include <Inventor/SoDB.h>
 #include <Inventor/SoInput.h>
 #include <Inventor/SoPath.h>
+#include <Inventor/actions/SoGetBoundingBoxAction.h>
 #include <Inventor/nodes/SoCube.h>
 #include <Inventor/nodes/SoEnvironment.h>
 #include <Inventor/nodes/SoMaterial.h>
@@ -308,8 +309,13 @@ TEST_F(Managed, ExportsScenesAndVolumesThatCoinReads) {
     ASSERT_NE(volumes, nullptr);
     EXPECT_NE(find<SoNode>(scene.get(), "BOX"), nullptr);
     EXPECT_EQ(find<SoNode>(volumes.get(), "BOX"), nullptr);
+    SoGetBoundingBoxAction bounds(SbViewportRegion(320, 240));
+    bounds.apply(volumes.get());
+    const SbVec3f size = bounds.getBoundingBox().getMax() - bounds.getBoundingBox().getMin();
+    EXPECT_GT(size.length(), depth ? 10.0f : 30.0f);
+    EXPECT_LT(size.length(), 200.0f);
     const auto picture = stage_->draw(scene.get());  // with its camera: volumes over the scene
-    save(picture, depth ? "coin_export_finite" : "coin_export_infinite");
+    save(picture, depth ? "coin_export_near" : "coin_export_far");
     const auto plain = stage_->draw(scene_.get());
     EXPECT_GT(largestDifference(picture, plain, [](int, int) { return true; }).pixels, 3000u);
   }

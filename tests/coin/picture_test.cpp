@@ -1,12 +1,13 @@
 #include <Inventor/SoDB.h>
 #include <Inventor/SoInput.h>
-#include <Inventor/nodes/SoPerspectiveCamera.h>
+#include <Inventor/nodes/SoPointLight.h>
 #include <Inventor/nodes/SoTranslation.h>
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
-#include "coin/scenes.hpp"
-#include "coin/stage.hpp"
-#include "coin/truth.hpp"
+#include <optional>
+
+#include "coin/judged.hpp"
 #include "state/host_state.hpp"
 #include "umbrage/coin/exact_shadow_group.hpp"
 #include "umbrage/gl/stencil_pixels.hpp"
@@ -15,30 +16,6 @@
 
 namespace umbrage::coin::test {
 namespace {
-
-constexpr int kWidth = 320, kHeight = 240;
-
-#define STAGE_OR_SKIP(stage)                       \
-  const auto stage = Stage::make(kWidth, kHeight); \
-  if (!stage) GTEST_SKIP() << "no OpenGL here"
-
-/// Draws it, and holds masks and picture against the truth.
-image::RgbaImage judged(Stage& stage, SoNode* root, const std::string& what) {
-  auto* group = groupOf(root);
-  const auto picture = stage.draw(root);
-  EXPECT_FALSE(group->lastError()) << what << ": " << group->lastError()->text();
-  expectTrueShadows(*group, what);
-  expectCoinsOwnPicture(stage, root, *group, picture);
-  save(picture, "coin_" + what);
-  return picture;
-}
-
-std::size_t shadowed(const LightShadow& light) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < light.mask.light.size(); ++i)
-    count += light.mask.covered.pixels()[i] != 0 && light.mask.light.pixels()[i] == 0;
-  return count;
-}
 
 TEST(Picture, IsRightByEveryMethod) {
   STAGE_OR_SKIP(stage);
@@ -57,55 +34,6 @@ TEST(Picture, KeepsTexturesFogAndMaterials) {
       "Texture2 { image 2 2 3 0xffffff 0x8080ff 0xff8080 0x80ff80 }\n";
   const auto root = sceneOf(room("", look + kThreeLights, kSolids));
   judged(*stage, root.get(), "textures_and_fog");
-}
-
-TEST(Picture, KnowsTheCameraInsideTheGroupToo) {
-  STAGE_OR_SKIP(stage);
-  const auto outside = sceneOf(room("", kThreeLights, kSolids));
-  const auto inside = sceneOf(room("", kCamera + kThreeLights, kSolids, ""));
-  const auto below = sceneOf(room("", "Separator { " + kCamera + kThreeLights, kSolids + "}", ""));
-  const auto expected = stage->draw(outside.get());
-  EXPECT_EQ(
-      largestDifference(expected, judged(*stage, inside.get(), "camera_inside"), [](int, int) { return true; }).most,
-      0);
-  EXPECT_EQ(
-      largestDifference(expected, judged(*stage, below.get(), "camera_below"), [](int, int) { return true; }).most, 0);
-}
-
-TEST(Picture, HasEveryViewThatCoinHas) {
-  STAGE_OR_SKIP(stage);
-  const auto pinhole = sceneOf(room("", kThreeLights, kSolids));
-  stage->draw(pinhole.get());
-  // What lies behind a pinhole's pixels is seen by the other way, too, for the rays are the same.
-  const std::string frustum =
-      "FrustumCamera { position 1 3 8 orientation -1 0.2 0 0.32 nearDistance 0.5 farDistance 40 left -0.2 right 0.3 "
-      "top 0.2 bottom -0.2 }\n";
-  const std::string parallel =
-      "OrthographicCamera { position 1 3 8 orientation -1 0.2 0 0.32 nearDistance 0.5 farDistance 40 height 6 }\n";
-  for (const auto& [name, camera] : {std::pair{"frustum", frustum}, std::pair{"parallel", parallel}}) {
-    const auto root = sceneOf(room("", kThreeLights, kSolids, camera));
-    auto* group = groupOf(root.get());
-    const auto picture = stage->draw(root.get());
-    ASSERT_FALSE(group->lastError()) << group->lastError()->text();
-    EXPECT_FALSE(group->report().camera);
-    for (const LightShadow& light : group->report().lights) EXPECT_GT(shadowed(light), 500u) << name;
-    expectCoinsOwnPicture(*stage, root.get(), *group, picture);
-    save(picture, std::string("coin_") + name);
-  }
-}
-
-// The general way of seeing (rays from the near plane) against the techniques' own, in a view that both can take.
-TEST(Picture, IsTheSameByTheGeneralWayOfSeeing) {
-  STAGE_OR_SKIP(stage);
-  // A caster that is looked through asks for the general way; one behind the camera changes nothing else.
-  const std::string behind =
-      "Separator { Translation { translation 1 30 30 } Material { transparency 0.5 } Cube { width 0.1 height 0.1 depth "
-      "0.1 } }\n";
-  const auto root = sceneOf(room("transparentCasters OPAQUE", kThreeLights, kSolids + behind));
-  auto* group = groupOf(root.get());
-  stage->draw(root.get());
-  EXPECT_EQ(group->report().method, "ray_traced");
-  expectTrueShadows(*group, "general");
 }
 
 TEST(Picture, CastsThroughTransparentShapesAsAsked) {
@@ -161,21 +89,44 @@ TEST(Picture, WithoutAStencilIsCoinsOwnAndSaysSo) {
   EXPECT_EQ(largestDifference(picture, stage->draw(root.get()), [](int, int) { return true; }).most, 0);
 }
 
-TEST(Picture, BelowACachedNodeIsCoinsOwnAndSaysSo) {
+TEST(Picture, HasItsShadowsInEveryFrameUnderCoinsCaches) {
   STAGE_OR_SKIP(stage);
-  SoSeparator::setNumRenderCaches(2);
-  const auto root = sceneOf("Separator { " + kCamera + " Separator { renderCaching ON DEF GROUP ExactShadowGroup { " +
-                            kThreeLights + kSolids + "} } }");
-  for (int i = 0; i < 4; ++i) stage->draw(root.get());
-  const auto error = groupOf(root.get())->lastError();
-  SoSeparator::setNumRenderCaches(0);
+  const CachesAsCoinHasThem caches;
+  for (const std::string caching : {"AUTO", "ON"}) {
+    const auto root =
+        sceneOf("Separator { " + kCamera + " Separator { renderCaching " + caching +
+                " Separator { Cube { } DEF GROUP ExactShadowGroup { " + kThreeLights + kSolids + "} } } }");
+    auto* group = groupOf(root.get());
+    const auto first = stage->draw(root.get());
+    expectTrueShadows(*group, caching);
+    EXPECT_GT(group->report().passes, 3u);
+    for (int frame = 0; frame < 40; ++frame) {
+      const auto picture = stage->draw(root.get());
+      ASSERT_FALSE(group->lastError()) << caching << " frame " << frame << ": " << group->lastError()->text();
+      ASSERT_EQ(largestDifference(first, picture, [](int, int) { return true; }).pixels, 0u)
+          << caching << " frame " << frame;
+    }
+    find<SoPointLight>(root.get(), "LAMP")->location = SbVec3f(-3, 5, 4);
+    EXPECT_GT(largestDifference(first, stage->draw(root.get()), [](int, int) { return true; }).pixels, 1000u)
+        << caching;
+    expectTrueShadows(*group, caching);
+  }
+}
+
+TEST(Picture, OfAGroupInsideAnotherIsTheOutersAndSaysSo) {
+  STAGE_OR_SKIP(stage);
+  const auto root = sceneOf(room("", kThreeLights, "DEF INNER ExactShadowGroup { " + kSolids + "}"));
+  stage->draw(root.get());
+  EXPECT_FALSE(groupOf(root.get())->lastError());
+  expectTrueShadows(*groupOf(root.get()), "nested");
+  const auto& error = find<SoExactShadowGroup>(root.get(), "INNER")->lastError();
   ASSERT_TRUE(error);
-  EXPECT_NE(error->message.find("renderCaching"), std::string::npos);
+  EXPECT_NE(error->message.find("inside another"), std::string::npos) << error->text();
 }
 
 TEST(Picture, ShowsCachedShapesBelowWithTheRightLights) {
   STAGE_OR_SKIP(stage);
-  SoSeparator::setNumRenderCaches(2);
+  auto caches = std::make_optional<CachesAsCoinHasThem>();
   const auto root = sceneOf(room("", "", "Separator { renderCaching ON " + kThreeLights + kSolids + "}"));
   auto* group = groupOf(root.get());
   group->isActive = FALSE;
@@ -183,7 +134,7 @@ TEST(Picture, ShowsCachedShapesBelowWithTheRightLights) {
   group->isActive = TRUE;
   image::RgbaImage picture;
   for (int i = 0; i < 4; ++i) picture = stage->draw(root.get());
-  SoSeparator::setNumRenderCaches(0);
+  caches.reset();
   expectTrueShadows(*group, "cached");
   expectCoinsOwnPicture(*stage, root.get(), *group, picture);
 }
@@ -230,6 +181,18 @@ TEST(Picture, ShowsShadowsOnlyOnWhatIsShadowed) {
   EXPECT_EQ(changed(*stage, kSolids, "all_shadowed"), onFloor + onSolids);
 }
 
+TEST(Picture, TakesTheLightsAndCullingOfShadowGroupsForOrdinaryOnes) {
+  STAGE_OR_SKIP(stage);
+  const std::string spot = "SpotLight { location -4 6 2 direction 0.6 -1 -0.3 cutOffAngle 0.5 }\n";
+  const std::string sun = "DirectionalLight { direction 0.7 -1 -0.4 color 0.4 1 0.5 intensity 0.5 }\n";
+  const auto usual = sceneOf(room("", spot + sun, kSolids));
+  const auto theirs =
+      sceneOf(room("", "Shadow" + spot + "Shadow" + sun + "ShadowCulling { mode NO_CULLING }", kSolids));
+  const auto expected = stage->draw(usual.get());
+  EXPECT_EQ(largestDifference(expected, stage->draw(theirs.get()), [](int, int) { return true; }).most, 0);
+  EXPECT_EQ(groupOf(theirs.get())->report().lights.size(), 2u);
+}
+
 TEST(Picture, CastsNothingWithAStyleThatDoesNotCast) {
   STAGE_OR_SKIP(stage);
   const auto [floor, solids] = floorAndSolids();
@@ -245,6 +208,67 @@ TEST(Picture, LightsThatAreOffAreNone) {
   EXPECT_EQ(groupOf(root.get())->report().passes, 1u);
 }
 
+TEST(Picture, ByALightBeyondAllDistancesIsThatOfItsDirection) {
+  STAGE_OR_SKIP(stage);
+  for (const std::string method : {"RAY_TRACED", "AUTOMATIC", "Z_PASS", "Z_FAIL"}) {
+    const auto far = sceneOf(room("method " + method, "PointLight { location 3e20 5e20 4e20 }", kSolids));
+    const auto sun = sceneOf(room("method " + method, "DirectionalLight { direction -3 -5 -4 }", kSolids));
+    stage->draw(far.get());
+    stage->draw(sun.get());
+    ASSERT_EQ(groupOf(far.get())->report().lights.size(), 1u) << method;
+    EXPECT_EQ(groupOf(far.get())->report().lights[0].mask.light, groupOf(sun.get())->report().lights[0].mask.light)
+        << method;
+  }
+}
+
+TEST(Picture, OfMoreLightsThanOpenGlHasIsThatOfTheFirst) {
+  STAGE_OR_SKIP(stage);
+  std::string eight;
+  for (int i = 0; i < 8; ++i)
+    eight +=
+        "PointLight { intensity 0.15 location " + std::to_string(i % 3 - 1) + " 5 " + std::to_string(i / 3) + " }\n";
+  const auto with = sceneOf(room("", eight + "PointLight { location -3 6 0 color 0 1 0 }", kSolids));
+  const auto without = sceneOf(room("", eight, kSolids));
+  const auto picture = stage->draw(with.get());
+  ASSERT_TRUE(groupOf(with.get())->lastError());
+  EXPECT_NE(groupOf(with.get())->lastError()->message.find("too few lights"), std::string::npos);
+  EXPECT_EQ(largestDifference(picture, stage->draw(without.get()), [](int, int) { return true; }).most, 0);
+  EXPECT_FALSE(groupOf(without.get())->lastError());
+}
+
+TEST(Picture, KnowsNothingOfShapesUnderAnotherCamera) {
+  STAGE_OR_SKIP(stage);
+  const std::string hud =
+      "OrthographicCamera { position 0 0 5 nearDistance 1 farDistance 10 height 2 }\n"
+      "Translation { translation 0.9 0.8 0 } Cube { width 0.4 height 0.2 depth 0.4 }\n";
+  const auto plain = sceneOf(room("", kOneLight, kSolids));
+  stage->draw(plain.get());
+  const auto& expected = groupOf(plain.get())->report().lights.at(0).mask.light;
+  for (const auto& [shapes, told] : {std::pair{"Separator { " + hud + "}", true},
+                                     std::pair{"Separator { LightModel { model BASE_COLOR } " + hud + "}", false},
+                                     std::pair{"Annotation { " + hud + "}", false}}) {
+    const auto root = sceneOf(room("", kOneLight, kSolids + shapes));
+    stage->draw(root.get());
+    EXPECT_EQ(groupOf(root.get())->report().lights.at(0).mask.light, expected) << shapes;
+    EXPECT_EQ(groupOf(root.get())->lastError().has_value(), told) << shapes;
+  }
+}
+
+TEST(Picture, HandlesOfManipulatorsCastNothing) {
+  STAGE_OR_SKIP(stage);
+  const auto root = sceneOf(room("", kOneLight, kSolids + "Separator { TrackballManip { } } DragPointDragger { }"));
+  const auto plain = sceneOf(room("", kOneLight, kSolids));
+  const auto casting = [&](SoNode* scene) {
+    stage->draw(scene);
+    std::size_t count = 0;
+    for (const std::uint8_t casts : groupOf(scene)->report().geometry->surfaces.casts) count += casts;
+    return count;
+  };
+  EXPECT_EQ(casting(root.get()), casting(plain.get()));
+  EXPECT_GT(groupOf(root.get())->report().geometry->surfaces.triangles.size(),
+            groupOf(plain.get())->report().geometry->surfaces.triangles.size());
+}
+
 TEST(Picture, OfNothingHasAnEmptyReport) {
   STAGE_OR_SKIP(stage);
   const auto root = sceneOf(room("", kOneLight, kSolids));
@@ -256,35 +280,6 @@ TEST(Picture, OfNothingHasAnEmptyReport) {
   EXPECT_TRUE(group->report().lights.empty());
   EXPECT_EQ(group->report().passes, 1u);
   EXPECT_FALSE(group->lastError());
-}
-
-TEST(Picture, OfSeveralViewersOnOneSceneIsEachViewersOwn) {
-  STAGE_OR_SKIP(first);
-  const auto second = Stage::make(200, 150);
-  ASSERT_TRUE(second);
-  const auto scene = sceneOf("Separator { DEF GROUP ExactShadowGroup { " + kThreeLights + kSolids + "} }");
-  const auto view = [&](const std::string& camera) {
-    auto root = hold(new SoSeparator);
-    root->addChild(sceneOf(camera).get()->getChild(0));
-    root->addChild(scene->getChild(0));
-    return root;
-  };
-  const auto one = view(kCamera);
-  const auto other =
-      view("PerspectiveCamera { position -5 4 5 orientation -0.55 -0.75 -0.3 0.9 nearDistance 0.5 farDistance 40 }");
-  auto* group = groupOf(scene.get());
-  for (int i = 0; i < 2; ++i) {
-    first->enter();
-    const auto here = first->draw(one.get());
-    expectTrueShadows(*group, "first viewer");
-    expectCoinsOwnPicture(*first, one.get(), *group, here);
-    second->enter();
-    const auto there = second->draw(other.get());
-    expectTrueShadows(*group, "second viewer");
-    expectCoinsOwnPicture(*second, other.get(), *group, there);
-  }
-  EXPECT_EQ(group->work().extractions, 4u);
-  EXPECT_EQ(group->work().geometryBuilds, 1u);
 }
 
 TEST(Picture, LeavesTheHostsStateAlone) {
@@ -306,22 +301,71 @@ TEST(Picture, LeavesTheHostsStateAlone) {
   EXPECT_EQ(largestDifference(picture, stage->draw(plain.get()), [](int, int) { return true; }).most, 0);
 }
 
+/// A framebuffer with four samples a pixel.
+class Sampled {
+ public:
+  Sampled() {
+    glCreateFramebuffers(1, &framebuffer_);
+    glCreateRenderbuffers(1, &buffer_);
+    glNamedRenderbufferStorageMultisample(buffer_, 4, GL_DEPTH24_STENCIL8, 16, 16);
+    glNamedFramebufferRenderbuffer(framebuffer_, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, buffer_);
+  }
+  Sampled(const Sampled&) = delete;
+  Sampled& operator=(const Sampled&) = delete;
+  ~Sampled() {
+    glDeleteFramebuffers(1, &framebuffer_);
+    glDeleteRenderbuffers(1, &buffer_);
+  }
+  void bind() const { glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_); }
+
+ private:
+  unsigned framebuffer_ = 0, buffer_ = 0;
+};
+
 // What is done between Coin's passes, in hosts of every state.
 TEST(Picture, StencilsLeaveWildHostsAlone) {
   STAGE_OR_SKIP(stage);
   state::WildHost host(true);
+  const Sampled sampled;
   const std::vector<std::uint8_t> values(12, 5);
   for (std::uint32_t seed = 1; seed <= 200; ++seed) {
     host.randomise(seed);
+    if (seed % 4 == 0) sampled.bind();
     const auto before = host.snapshot();
     {
       gl::HostScope scope;
-      ASSERT_TRUE(gl::writeStencil(scope, values, {3, 4, 4, 3}));
+      const auto written = gl::writeStencil(scope, values, {3, 4, 4, 3});
+      ASSERT_TRUE(written) << written.error().text();
       gl::fillStencil(scope, 7, {0, 0, 9, 9});
     }
     { const gl::StencilWindow window(5, {1, 2, 30, 40}); }
     ASSERT_EQ(state::difference(before, host.snapshot()), "") << "seed " << seed;
   }
+}
+
+TEST(Picture, LightsKeepWhatTheyAreConnectedTo) {
+  STAGE_OR_SKIP(stage);
+  const auto root = sceneOf(room("", kThreeLights, kSolids));
+  auto* lamp = find<SoPointLight>(root.get(), "LAMP");
+  const auto master = hold(new SoPointLight);
+  master->intensity = 0.7f;
+  lamp->intensity.connectFrom(&master->intensity);
+  const auto picture = stage->draw(root.get());
+  EXPECT_TRUE(lamp->intensity.isConnected());
+  EXPECT_EQ(lamp->intensity.getValue(), 0.7f);
+  EXPECT_EQ(largestDifference(picture, stage->draw(root.get()), [](int, int) { return true; }).most, 0);
+  master->intensity = 0.3f;
+  EXPECT_GT(largestDifference(picture, stage->draw(root.get()), [](int, int) { return true; }).pixels, 1000u);
+  EXPECT_EQ(lamp->intensity.getValue(), 0.3f);
+}
+
+TEST(Picture, BlackLightsOfVrmlAreAsTheyWere) {
+  STAGE_OR_SKIP(stage);
+  const auto root = sceneOf(room("", "DEF LAMP VRMLPointLight { location 3 5 4 ambientIntensity 0.2 }", kSolids));
+  const std::string before = inventor::written(root.get());
+  stage->draw(root.get());
+  EXPECT_EQ(groupOf(root.get())->report().passes, 2u);
+  EXPECT_EQ(inventor::written(root.get()), before);
 }
 
 TEST(Picture, LeavesTheGraphAlone) {

@@ -40,14 +40,14 @@ Ref<> sceneOf(const std::string& text) {
   return hold(root);
 }
 
-std::unique_ptr<Stage> Stage::make(int width, int height, bool stencil) {
+std::unique_ptr<Stage> Stage::make(int width, int height, bool stencil, int samples) {
   startCoin();
   auto context = gl::Context::createHeadless({.compatibility = true});
   if (!context) return nullptr;
-  return std::unique_ptr<Stage>(new Stage(std::move(*context), width, height, stencil));
+  return std::unique_ptr<Stage>(new Stage(std::move(*context), width, height, stencil, samples));
 }
 
-Stage::Stage(std::shared_ptr<gl::Context> context, int width, int height, bool stencil)
+Stage::Stage(std::shared_ptr<gl::Context> context, int width, int height, bool stencil, int samples)
     : context_(std::move(context)),
       current_(std::make_unique<gl::CurrentContext>(context_)),
       width_(width),
@@ -55,11 +55,18 @@ Stage::Stage(std::shared_ptr<gl::Context> context, int width, int height, bool s
       action_(SbViewportRegion(static_cast<short>(width), static_cast<short>(height))) {
   glCreateFramebuffers(1, &framebuffer_);
   glCreateRenderbuffers(2, buffers_);
-  glNamedRenderbufferStorage(buffers_[0], GL_RGBA8, width, height);
-  glNamedRenderbufferStorage(buffers_[1], stencil ? GL_DEPTH24_STENCIL8 : GL_DEPTH_COMPONENT24, width, height);
+  glNamedRenderbufferStorageMultisample(buffers_[0], samples, GL_RGBA8, width, height);
+  glNamedRenderbufferStorageMultisample(buffers_[1], samples, stencil ? GL_DEPTH24_STENCIL8 : GL_DEPTH_COMPONENT24,
+                                        width, height);
   glNamedFramebufferRenderbuffer(framebuffer_, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers_[0]);
   glNamedFramebufferRenderbuffer(framebuffer_, stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
                                  GL_RENDERBUFFER, buffers_[1]);
+  if (samples > 0) {
+    glCreateFramebuffers(1, &resolved_);
+    glCreateRenderbuffers(1, &resolvedBuffer_);
+    glNamedRenderbufferStorage(resolvedBuffer_, GL_RGBA8, width, height);
+    glNamedFramebufferRenderbuffer(resolved_, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, resolvedBuffer_);
+  }
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glViewport(0, 0, width, height);
   glEnable(GL_DEPTH_TEST);  // as Coin's viewers do
@@ -72,6 +79,8 @@ Stage::~Stage() {
   SoContextHandler::destructingContext(action_.getCacheContext());
   glDeleteFramebuffers(1, &framebuffer_);
   glDeleteRenderbuffers(2, buffers_);
+  glDeleteFramebuffers(1, &resolved_);
+  glDeleteRenderbuffers(1, &resolvedBuffer_);
 }
 
 void Stage::enter() {
@@ -96,7 +105,20 @@ image::RgbaImage Stage::draw(SoNode* scene) {
 image::RgbaImage Stage::picture() const {
   image::RgbaImage out(width_, height_);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  if (resolved_ != 0) {
+    glBlitNamedFramebuffer(framebuffer_, resolved_, 0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
+                           GL_NEAREST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_);
+  }
   for (int y = 0; y < height_; ++y) glReadPixels(0, height_ - 1 - y, width_, 1, GL_RGBA, GL_UNSIGNED_BYTE, out.row(y));
+  if (resolved_ != 0) glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
+  return out;
+}
+
+image::Image<float> Stage::depth() const {
+  image::Image<float> out(width_, height_);
+  for (int y = 0; y < height_; ++y)
+    glReadPixels(0, height_ - 1 - y, width_, 1, GL_DEPTH_COMPONENT, GL_FLOAT, out.row(y));
   return out;
 }
 

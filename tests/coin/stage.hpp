@@ -37,7 +37,7 @@ void startCoin();
 class Stage {
  public:
   /// Null where OpenGL is not to be had here.
-  [[nodiscard]] static std::unique_ptr<Stage> make(int width, int height, bool stencil = true);
+  [[nodiscard]] static std::unique_ptr<Stage> make(int width, int height, bool stencil = true, int samples = 0);
   ~Stage();
 
   /// Draws as a viewer does: clears, then applies its action.
@@ -45,6 +45,8 @@ class Stage {
   void clear();
   void apply(SoNode* scene);
   [[nodiscard]] image::RgbaImage picture() const;
+  /// What the depth buffer holds, 0 at the near plane and 1 where nothing was drawn; row 0 at the top.
+  [[nodiscard]] image::Image<float> depth() const;
 
   [[nodiscard]] SoGLRenderAction& action() { return action_; }
   [[nodiscard]] bool isSoftware() const { return context_->isSoftware(); }
@@ -53,11 +55,12 @@ class Stage {
   void enter();
 
  private:
-  Stage(std::shared_ptr<gl::Context> context, int width, int height, bool stencil);
+  Stage(std::shared_ptr<gl::Context> context, int width, int height, bool stencil, int samples);
   std::shared_ptr<gl::Context> context_;
   std::unique_ptr<gl::CurrentContext> current_;
   int width_, height_;
   unsigned framebuffer_ = 0, buffers_[2] = {};
+  unsigned resolved_ = 0, resolvedBuffer_ = 0;  ///< one sample a pixel, where the framebuffer has more
   SoGLRenderAction action_;
 };
 

@@ -32,13 +32,29 @@ bool edgeWithin(const image::GreyImage& edges, int x, int y) {
   return false;
 }
 
-void judge(const LightShadow& given, const shadow::LightMask& truth, const scene::Camera& camera,
-           const shadow::EdgeFinder& finder, Strayed& out) {
+/// Pixels where rays see what the picture's view looks through, which they know nothing of; with their neighbours, where chance says what is seen.
+image::GreyImage beyondJudgement(const ShadowReport& report, const image::Image<std::uint32_t>& triangle) {
+  image::GreyImage out(triangle.width(), triangle.height());
+  if (report.unseen.empty()) return out;
+  for (int y = 0; y < out.height(); ++y) {
+    for (int x = 0; x < out.width(); ++x) {
+      if (triangle(x, y) == shadow::kNoTriangle || report.unseen[triangle(x, y)] == 0) continue;
+      for (const int v : {y - 1, y, y + 1})
+        for (const int u : {x - 1, x, x + 1})
+          if (out.contains(u, v)) out(u, v) = 1;
+    }
+  }
+  return out;
+}
+
+void judge(const LightShadow& given, const shadow::LightMask& truth, const image::GreyImage& left,
+           const scene::Camera& camera, const shadow::EdgeFinder& finder, Strayed& out) {
   const auto edges = shadow::edgePixels(truth);
   std::size_t lookedAt = 0;
   ++out.masks;
   for (int y = 0; y < edges.height(); ++y) {
     for (int x = 0; x < edges.width(); ++x) {
+      if (left(x, y) != 0) continue;
       out.covered += truth.covered(x, y);
       if (given.mask.covered(x, y) == truth.covered(x, y) && given.mask.light(x, y) == truth.light(x, y)) continue;
       ++out.differing;
@@ -86,8 +102,9 @@ Strayed strayed(const ShadowReport& report) {
   for (const LightShadow& light : report.lights) lights.push_back(light.light);
   const auto shading = truth->shade({*report.camera, lights});
   const shadow::EdgeFinder finder(report.geometry, truth);
+  const auto left = beyondJudgement(report, shading->surface.triangle);
   for (std::size_t i = 0; i < lights.size(); ++i)
-    judge(report.lights[i], shading->masks[i], *report.camera, finder, out);
+    judge(report.lights[i], shading->masks[i], left, *report.camera, finder, out);
   return out;
 }
 

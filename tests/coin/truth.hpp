@@ -12,7 +12,8 @@ struct Strayed {
   std::size_t masks = 0, covered = 0, differing = 0, far = 0;
 };
 
-/// The masks of a report against ray_traced, by the judge's rule: a pixel that differs is far unless a true edge is near it.
+/// The masks of a report against ray_traced, by the judge's rule: a pixel that differs is far unless a true edge is near it. Pixels where rays meet
+/// first what the picture looks through are left out: the depth test knows them.
 /// REQUIRES: the report has a camera.
 [[nodiscard]] Strayed strayed(const ShadowReport& report);
 

@@ -6,6 +6,8 @@
 #include <Inventor/actions/SoGetMatrixAction.h>
 #include <Inventor/annex/FXViz/elements/SoShadowStyleElement.h>
 #include <Inventor/annex/FXViz/nodes/SoShadowGroup.h>
+#include <Inventor/annex/FXViz/nodes/SoShadowStyle.h>
+#include <Inventor/elements/SoShapeStyleElement.h>
 #include <Inventor/misc/SoState.h>
 
 #include "umbrage/coin/detail/engine.hpp"
@@ -16,8 +18,10 @@ SO_NODE_SOURCE(SoExactShadowGroup);
 
 void init() {
   if (SoExactShadowGroup::getClassTypeId() != SoType::badType()) return;
-  SoShadowGroup::init();                              // for SoShadowStyle, which says what casts
+  // SoShadowStyle says what casts. Coin 4 makes it known itself, and SoDB::finish() dies of what is made known twice.
+  if (SoShadowStyle::getClassTypeId() == SoType::badType()) SoShadowGroup::init();
   SO_ENABLE(SoCallbackAction, SoShadowStyleElement);  // which Coin knows only while it draws
+  SO_ENABLE(SoCallbackAction, SoShapeStyleElement);   // and transparency types, too
   SoExactShadowGroup::initClass();
 }
 

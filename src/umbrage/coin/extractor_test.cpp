@@ -1,9 +1,15 @@
 #include <Inventor/SoDB.h>
 #include <Inventor/SoInput.h>
 #include <Inventor/SoPath.h>
+#include <Inventor/actions/SoGLRenderAction.h>
+#include <Inventor/actions/SoGetBoundingBoxAction.h>
+#include <Inventor/nodes/SoCoordinate3.h>
 #include <Inventor/nodes/SoCube.h>
 #include <Inventor/nodes/SoSeparator.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
 
 #include "umbrage/coin/detail/extractor.hpp"
 #include "umbrage/coin/exact_shadow_group.hpp"
@@ -25,10 +31,10 @@ class Extraction : public testing::Test {
     root_ = hold(SoDB::readAll(&input));
     ASSERT_NE(root_, nullptr);
   }
-  Scan scan(const Registry& registry = kEverything, bool transparencyCounts = true) {
+  Scan scan(const Registry& registry = kEverything, int transparencyType = SoGLRenderAction::BLEND) {
     auto* path = new SoPath(root_.get());
     path->ref();
-    Scan scan = extractor_.scan({path, SbViewportRegion(320, 240), &registry, false, transparencyCounts});
+    Scan scan = extractor_.scan({path, SbViewportRegion(320, 240), &registry, false, transparencyType});
     path->unref();
     return scan;
   }
@@ -69,6 +75,11 @@ TEST_F(Extraction, EveryKindOfFaceSetGivesItsTriangles) {
       {"PointSet { }", 0},
       {"DrawStyle { style INVISIBLE } FaceSet { numVertices [ 4 ] }", 0},
       {"DrawStyle { style LINES } FaceSet { numVertices [ 4 ] }", 0},
+      {"IndexedFaceSet { coordIndex [ 0, 1, 2, -1, -1, 1, 2, -1, 1, 4, 5, 2, -1 ] }", 3},
+      {"VRMLIndexedFaceSet { coord VRMLCoordinate { point [ 0 0 0, 1 0 0, 0 1 0 ] } coordIndex [ 0, 1, 2, -1, 0, -1, "
+       "2, "
+       "1, 0 ] }",
+       2},
       {"IndexedFaceSet { coordIndex [ 0, 1, 99, -1 ] }", 0}};
   for (const auto& [text, triangles] : kinds) {
     read("Separator { " + points + text + "}");
@@ -104,7 +115,8 @@ TEST_F(Extraction, TransparencyIsTakenFaceByFace) {
   ASSERT_EQ(found.shapes.size(), 1u);
   EXPECT_EQ(found.shapes[0].triangles->opaque->triangles.size(), 1u);
   EXPECT_EQ(found.shapes[0].triangles->veiled->triangles.size(), 1u);
-  EXPECT_EQ(scan(kEverything, false).shapes[0].triangles->opaque->triangles.size(), 3u);  // drawn as if it were opaque
+  EXPECT_EQ(scan(kEverything, SoGLRenderAction::NONE).shapes[0].triangles->opaque->triangles.size(),
+            3u);  // drawn as if it were opaque
 }
 
 TEST_F(Extraction, ATextureThatLetsLightThroughVeilsAll) {
@@ -154,6 +166,92 @@ TEST_F(Extraction, LightsOfEveryKindStandInTheWorld) {
   EXPECT_NEAR(spot.cutoff.radians(), 0.3, 1e-6);
   const auto& sun = std::get<scene::DirectionalLight>(found.lights[2].light.shape);
   EXPECT_NEAR(sun.direction.y, 1.0, 1e-6);
+}
+
+TEST_F(Extraction, LightsBeyondAllDistancesShineFromTheirDirection) {
+  read(
+      "Separator { PointLight { location 3e18 0 0 } PointLight { location 0 1e37 0 } SpotLight { location 0 0 -1e16 } "
+      "PointLight { location 1e12 0 0 } Cube { } }");
+  const Scan found = scan();
+  ASSERT_EQ(found.lights.size(), 4u);
+  const Vec3 towards[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(scene::homogeneous(found.lights[i].light, Vec3(0.0)), Vec4(towards[i], 0.0));
+  EXPECT_EQ(scene::homogeneous(found.lights[3].light, Vec3(0.0)).w, 1.0);
+}
+
+TEST_F(Extraction, TransparencyTypesCountWhereTheyStand) {
+  const std::string glass = "Material { transparency 0.5 } Cube { }";
+  read("Separator { TransparencyType { value NONE } " + glass + "}");
+  EXPECT_NE(scan().shapes.at(0).triangles->opaque, nullptr);
+  read("Separator { Separator { TransparencyType { value BLEND } " + glass + "} " + glass + "}");
+  const Scan found = scan(kEverything, SoGLRenderAction::NONE);
+  EXPECT_EQ(found.shapes.at(0).triangles->opaque, nullptr);
+  EXPECT_NE(found.shapes.at(1).triangles->opaque, nullptr);
+}
+
+TEST_F(Extraction, ShapesBeyondAllMeasureAreLeftOut) {
+  read("Separator { Cube { } Coordinate3 { point [ 0 0 0, 1 0 0, 0 1 0 ] } FaceSet { numVertices 3 } }");
+  auto* points = static_cast<SoCoordinate3*>(static_cast<SoSeparator*>(root_.get())->getChild(1));
+  constexpr float kInfinite = std::numeric_limits<float>::infinity();
+  for (const float far : {1e14f, 1e16f, 1e38f, kInfinite, -kInfinite, std::numeric_limits<float>::quiet_NaN()}) {
+    points->point.set1Value(1, far, 0, 0);
+    const Scan found = scan();
+    EXPECT_EQ(found.beyond, far == 1e14f ? 0u : 1u) << far;
+    EXPECT_EQ(found.shapes.size(), far == 1e14f ? 2u : 1u) << far;
+  }
+  read("Separator { Cube { } Scale { scaleFactor 1e20 1e20 1e20 } Cube { } }");
+  EXPECT_EQ(scan().beyond, 1u);
+}
+
+TEST_F(Extraction, TextsReachNoFartherThanTheirLetters) {
+  for (const std::string parts : {"FRONT", "SIDES", "ALL"}) {
+    read("Separator { Translation { translation 5 0 0 } Text3 { string \"Shade\" parts " + parts + " } }");
+    const Scan found = scan();
+    if (found.shapes.empty()) continue;
+    SoGetBoundingBoxAction bounds(SbViewportRegion(320, 240));
+    bounds.apply(root_.get());
+    const SbVec3f low = bounds.getBoundingBox().getMin(), high = bounds.getBoundingBox().getMax();
+    for (const Vec3& p : found.shapes[0].triangles->opaque->positions) {
+      const Vec3 world = transformPoint(found.shapes[0].toWorld, p);
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_GE(world[k], double(low[k]) - 0.5) << parts;
+        EXPECT_LE(world[k], double(high[k]) + 0.5) << parts;
+      }
+    }
+  }
+}
+
+TEST_F(Extraction, OfAChangingShapeTheLatestIsKept) {
+  read("Separator { Coordinate3 { point [ 0 0 0, 1 0 0, 0 1 0 ] } FaceSet { numVertices 3 } Cube { } }");
+  auto* root = static_cast<SoSeparator*>(root_.get());
+  for (int i = 0; i < 100; ++i) {
+    static_cast<SoCoordinate3*>(root->getChild(0))->point.set1Value(1, 1.0f + float(i), 0, 0);
+    static_cast<SoCube*>(root->getChild(2))->height = 1.0f + float(i);
+    (void)scan();
+    EXPECT_LE(extractor_.kept(), 4u);
+  }
+  EXPECT_EQ(extractor_.extractions(), 200u);
+}
+
+TEST_F(Extraction, ClippingPlanesCut) {
+  read(
+      "Separator { Translation { translation 1 0 0 } ClipPlane { plane 1 0 0 0.25 } Separator { Scale { scaleFactor -1 "
+      "1 1 } DEF BOX Cube { } } Translation { translation 5 0 0 } Cube { } Translation { translation -20 0 0 } Cube { "
+      "} "
+      "}");
+  const Scan found = scan();
+  ASSERT_EQ(found.shapes.size(), 2u);  // the third lies beyond
+  double low = 1e9, high = -1e9;
+  for (const Vec3& p : found.shapes[0].triangles->opaque->positions) {
+    const double x = transformPoint(found.shapes[0].toWorld, p).x;
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  EXPECT_NEAR(low, 1.25, 1e-6);
+  EXPECT_NEAR(high, 2.0, 1e-6);
+  EXPECT_EQ(found.shapes[1].triangles->opaque->triangles.size(), 12u);
+  EXPECT_EQ(scan().shapes[0].triangles, found.shapes[0].triangles);  // nothing is cut twice
 }
 
 TEST_F(Extraction, OnlyWhatIsRegisteredCasts) {

@@ -30,7 +30,8 @@ struct Settings {
   Method method = Method::automatic;
   SceneType sceneType = SceneType::withShadows;
   TransparentCasters transparentCasters = TransparentCasters::none;
-  /// How far volumes that are drawn or written reach from the caster, in scene units; none: to infinity. Shadows themselves have no such end.
+  /// How far volumes that are drawn or written reach from the caster, in scene units; none: to infinity, and in files three times as far
+  /// as the scene is wide. Shadows themselves have no such end.
   std::optional<double> volumeDepth;
 };
 

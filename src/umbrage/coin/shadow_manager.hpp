@@ -59,7 +59,7 @@ class ShadowManager {
   void setMethod(Method method);
   void setSceneType(SceneType type);
   void setTransparentCasters(TransparentCasters casters);
-  /// Of visible and exported volumes: scene units from the caster, above 0; none: to infinity.
+  /// Of visible and exported volumes: scene units from the caster, above 0; none: to infinity, and in files three times as far as the scene is wide.
   void setVolumeDepth(std::optional<double> depth);
   [[nodiscard]] Settings settings() const;
 

@@ -24,6 +24,8 @@ struct LightShadow {
 struct ShadowReport {
   std::shared_ptr<const shadow::Geometry>
       geometry;  ///< all surfaces that light stops at, in world coordinates; null before the first picture
+  /// Per triangle of it, 1 where it casts but is looked through: it lets light through, or Coin culls the side that it shows. Empty: all are seen.
+  std::vector<std::uint8_t> unseen;
   std::optional<scene::Camera> camera;  ///< none where no pinhole camera says it: parallel, shifted and stretched views
   std::vector<LightShadow> lights;      ///< in the order in which Coin meets them
   std::size_t passes = 0;               ///< times Coin drew the scene

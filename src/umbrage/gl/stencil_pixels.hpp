@@ -9,10 +9,10 @@
 
 namespace umbrage::gl {
 
-/// Writes stencil values into a host's framebuffer: one a pixel of `where`, row by row from the bottom. The compatibility profile alone can do so
-/// without a shader that counts bits.
+/// Writes stencil values into a host's framebuffer: one a pixel of `where`, for all its samples, row by row from the bottom.
 /// REQUIRES: values.size() == where.width * where.height, both above 0.
-/// Errors: ErrorCode::device in a core context.
+/// Errors: ErrorCode::device in a core context, for a framebuffer of one sample a pixel; with more, while a display list is made, or when memory
+/// is short.
 [[nodiscard]] Result<void> writeStencil(HostScope& scope, std::span<const std::uint8_t> values, const Rect& where);
 
 /// The stencil becomes `value` in the rectangle.

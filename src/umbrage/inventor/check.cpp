@@ -119,7 +119,66 @@ void lengthen(SoMFInt32& indices, const SoMFInt32& corners) {
     indices.set1Value(i, standard ? corners[i] : 0);
 }
 
+constexpr int kFewest = 3;  ///< corners of a face
+
+const SoMFInt32* cornersOf(const SoNode& shape) {
+  if (const auto* faces = as<SoIndexedFaceSet>(&shape)) return &faces->coordIndex;
+  if (const auto* faces = as<SoVRMLIndexedFaceSet>(&shape)) return &faces->coordIndex;
+  return nullptr;
+}
+
+/// The entries of faces that have corners enough, each with the -1 that ends it.
+std::vector<int> entriesOfFaces(const SoMFInt32& corners) {
+  std::vector<int> kept;
+  for (int i = 0, first = 0; i <= corners.getNum(); ++i) {
+    if (i < corners.getNum() && corners[i] >= 0) continue;
+    if (i - first >= kFewest)
+      for (int k = first; k <= std::min(i, corners.getNum() - 1); ++k) kept.push_back(k);
+    first = i + 1;
+  }
+  return kept;
+}
+
+void keepOnly(SoMFInt32& indices, const std::vector<int>& entries) {
+  std::vector<std::int32_t> kept;
+  for (const int entry : entries) kept.push_back(indices[entry]);
+  indices.setNum(static_cast<int>(kept.size()));
+  indices.setValues(0, static_cast<int>(kept.size()), kept.data());
+}
+
 }  // namespace
+
+bool hasShortFaces(const SoNode& shape) {
+  const SoMFInt32* corners = cornersOf(shape);
+  if (corners == nullptr) return false;
+  bool isShort = false;
+  for (int i = 0, first = 0; i <= corners->getNum(); ++i) {
+    if (i < corners->getNum() && (*corners)[i] >= 0) continue;
+    const bool enough = i - first >= kFewest;
+    if (enough && isShort) return true;
+    isShort = isShort || !enough;
+    first = i + 1;
+  }
+  return false;
+}
+
+void dropShortFaces(SoNode* shape) {
+  shape->enableNotify(FALSE);
+  std::vector<SoMFInt32*> lists;
+  if (shape->isOfType(SoIndexedFaceSet::getClassTypeId())) {
+    auto* faces = static_cast<SoIndexedFaceSet*>(shape);
+    lists = {&faces->materialIndex, &faces->normalIndex, &faces->textureCoordIndex, &faces->coordIndex};
+  } else if (shape->isOfType(SoVRMLIndexedFaceSet::getClassTypeId())) {
+    auto* faces = static_cast<SoVRMLIndexedFaceSet*>(shape);
+    lists = {&faces->colorIndex, &faces->normalIndex, &faces->texCoordIndex, &faces->coordIndex};
+  } else {
+    return;
+  }
+  const std::vector<int> entries = entriesOfFaces(*lists.back());
+  const int count = lists.back()->getNum();
+  for (SoMFInt32* list : lists)
+    if (list->getNum() >= count) keepOnly(*list, entries);  // shorter ones are not by corners
+}
 
 Result<void> checkGraph(SoNode* root) {
   std::unordered_map<SoNode*, Mark> marks = {{root, {}}};

@@ -36,6 +36,12 @@ class LongBindings {
   std::unique_ptr<Saved> saved_;
 };
 
+/// Whether a face with fewer than three corners stands before others: Coin tells the triangles of none that come after it, and draws them.
+[[nodiscard]] bool hasShortFaces(const SoNode& shape);
+
+/// Takes such faces out, with what their corners name. It changes the node, without telling anybody: for copies.
+void dropShortFaces(SoNode* shape);
+
 /// Makes bindings that Coin would read beyond the end of long enough, and empties those of normals and texture coordinates. It changes the
 /// node, without telling anybody: for graphs that are read once and thrown away.
 void secureBindings(SoNode* shape);

@@ -7,6 +7,8 @@ namespace {
 
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
+bool properPosition(const Vec3& v) { return finite(v) && glm::length(v) <= kFarthestLight; }
+
 bool properDirection(const Vec3& v) {
   const double length = glm::length(v);
   return std::isfinite(length) && length > 1e-150;
@@ -44,17 +46,17 @@ bool insideCone(const Light& light, const Vec3& point) {
 
 bool isValid(const Light& light) {
   struct Valid {
-    bool operator()(const PointLight& l) const { return finite(l.position); }
+    bool operator()(const PointLight& l) const { return properPosition(l.position); }
     bool operator()(const DirectionalLight& l) const { return properDirection(l.direction); }
     bool operator()(const SpotLight& l) const {
-      return finite(l.position) && properDirection(l.direction) && l.cutoff > Angle() &&
+      return properPosition(l.position) && properDirection(l.direction) && l.cutoff > Angle() &&
              l.cutoff <= Angle::degrees(180);
     }
     bool operator()(const DiscLight& l) const {
-      return finite(l.centre) && properDirection(l.direction) && positive(l.radius);
+      return properPosition(l.centre) && properDirection(l.direction) && positive(l.radius);
     }
-    bool operator()(const RectangleLight& l) const { return finite(l.centre) && properDirection(glm::cross(l.u, l.v)); }
-    bool operator()(const SphereLight& l) const { return finite(l.centre) && positive(l.radius); }
+    bool operator()(const RectangleLight& l) const { return properPosition(l.centre) && properDirection(glm::cross(l.u, l.v)); }
+    bool operator()(const SphereLight& l) const { return properPosition(l.centre) && positive(l.radius); }
     bool operator()(const SunLight& l) const {
       return properDirection(l.direction) && l.radius > Angle() && l.radius < Angle::degrees(90);
     }

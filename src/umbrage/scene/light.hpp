@@ -65,7 +65,11 @@ inline Vec3 towardsLight(const Vec4& light, const Vec3& point) { return Vec3(lig
 /// True when `point` (world) lies inside the spot's cone, its border included; always true for other lights and at the apex.
 [[nodiscard]] bool insideCone(const Light& light, const Vec3& point);
 
-/// True when position, direction, colour and intensity are finite, the direction is not zero and the cone is sensible.
+/// From farther away light is as good as parallel, and products of distances leave the range of single precision.
+inline constexpr double kFarthestLight = 1e15;
+
+/// True when position, direction, colour and intensity are finite, the position no farther than kFarthestLight from the world's origin, the direction
+/// not zero and the cone sensible.
 [[nodiscard]] bool isValid(const Light& light);
 
 }  // namespace umbrage::scene

@@ -24,6 +24,12 @@ Scene oneTriangle(const Vec3& shift = Vec3(0.0)) {
 
 void expectNear(const Vec3& a, const Vec3& b) { EXPECT_LT(glm::length(a - b), 1e-12); }
 
+TEST(Light, IsValidUpToWhereItsLightIsParallel) {
+  EXPECT_TRUE(isValid({.shape = PointLight{{0.9 * kFarthestLight, 0, 0}}}));
+  EXPECT_FALSE(isValid({.shape = PointLight{{1.1 * kFarthestLight, 0, 0}}}));
+  EXPECT_FALSE(isValid({.shape = SpotLight{{0, 1e300, 1e300}}}));
+}
+
 TEST(Frame, EastAndNorthFollowTheContract) {
   expectNear(eastVector(UpAxis::z), {1, 0, 0});
   expectNear(northVector(UpAxis::z), {0, 1, 0});
@@ -79,7 +85,8 @@ TEST(FrameAll, FillsThePicture) {
         const double tangent = tan(0.5 * c.fovY);
         Box3 seen;
         for (int i = 0; i < 8; ++i) {
-          const Vec3 corner(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z);
+          const Vec3 corner(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
+                            i & 4 ? box.max.z : box.min.z);
           const Vec3 v = corner - c.eye;
           const double depth = glm::dot(v, b.forward);
           EXPECT_GT(depth, 0.0);

@@ -4,6 +4,7 @@
 #include <Inventor/caches/SoGLRenderCache.h>
 #include <Inventor/elements/SoCacheElement.h>
 #include <Inventor/elements/SoGLCacheContextElement.h>
+#include <Inventor/elements/SoGLLightIdElement.h>
 #include <Inventor/elements/SoModelMatrixElement.h>
 #include <Inventor/elements/SoProjectionMatrixElement.h>
 #include <Inventor/elements/SoShapeStyleElement.h>
@@ -22,6 +23,7 @@
 #include "umbrage/gl/context.hpp"
 #include "umbrage/gl/stencil_pixels.hpp"
 #include "umbrage/gl/stencil_window.hpp"
+#include "umbrage/math/box.hpp"
 
 namespace umbrage::coin::detail {
 namespace {
@@ -34,7 +36,9 @@ class ManyPasses {
  public:
   ManyPasses(SoState* state, std::uint32_t cacheContext) : state_(state) {
     const SbBool remote = SoGLCacheContextElement::getIsRemoteRendering(state);
-    if (state->isCacheOpen()) SoCacheElement::invalidate(state);
+    SoCacheElement::invalidate(
+        state);  // also where none is open: separators above count the frames until they open one
+    running().push_back(state);
     SoGLCacheContextElement::shouldAutoCache(state, SoGLCacheContextElement::DONT_AUTO_CACHE);
     state->push();
     SoGLCacheContextElement::set(state, static_cast<int>(cacheContext), FALSE, remote);
@@ -42,16 +46,20 @@ class ManyPasses {
   }
   ManyPasses(const ManyPasses&) = delete;
   ManyPasses& operator=(const ManyPasses&) = delete;
-  ~ManyPasses() { state_->pop(); }
+  ~ManyPasses() {
+    state_->pop();
+    running().pop_back();
+  }
+  /// Whether what draws now stands inside another group that draws its passes.
+  static bool isInside(const SoState* state) { return std::ranges::find(running(), state) != running().end(); }
 
  private:
+  static std::vector<const SoState*>& running() {
+    static std::vector<const SoState*> states;
+    return states;
+  }
   SoState* state_;
 };
-
-// Whether Coin blends at all.
-bool drawsTransparent(SoState* state) {
-  return SoShapeStyleElement::getTransparencyType(state) != SoGLRenderAction::NONE;
-}
 
 void drawPass(SoGLRenderAction* action, const Engine::Draw& draw, Delayed delayed) {
   SoState* state = action->getState();
@@ -65,9 +73,8 @@ void drawPass(SoGLRenderAction* action, const Engine::Draw& draw, Delayed delaye
 
 // As Coin's own drawing has it, where the camera stands before: stereo and jitter are in it. A camera inside was told by the scan.
 std::optional<Sight> sightOf(SoState* state, const Scan& scan) {
-  const SbMatrix& projection = SoProjectionMatrixElement::get(state);
-  if (projection == SbMatrix::identity()) return scan.sight;
-  return Sight{SoViewingMatrixElement::get(state), projection, SoViewportRegionElement::get(state)};
+  const auto before = sightAt(state, scan.cameraToWorld);
+  return scan.ownCamera || !before ? scan.sight : before;
 }
 
 std::vector<Vec4> placesOf(const std::vector<PlacedLight>& lights) {
@@ -130,8 +137,8 @@ void Engine::render(SoGLRenderAction* action, const Settings& settings, const Dr
   Result<void> can;
   if (settings.sceneType == SceneType::withoutShadows)
     can = fail(ErrorCode::usage, "shadows are switched off");
-  else if (state->isCacheOpen())
-    can = fail(ErrorCode::device, "no shadows: a node above has renderCaching ON");
+  else if (ManyPasses::isInside(state))
+    can = fail(ErrorCode::usage, "no shadows of its own: it stands inside another group or manager that makes them");
   else
     can = checkTarget();
   if (can) {
@@ -151,7 +158,8 @@ Result<void> Engine::drawShadowed(SoGLRenderAction* action, const Settings& sett
   shadow::PhaseClock clock(phases_);
   const ManyPasses passes(state, ownCacheContext(static_cast<std::uint32_t>(action->getCacheContext())));
   const Scan scan = extractor_.scan({action->getCurPath(), SoViewportRegionElement::get(state), &registry_,
-                                     !gl::currentIsEgl(), drawsTransparent(state)});
+                                     !gl::currentIsEgl(), SoShapeStyleElement::getTransparencyType(state),
+                                     static_cast<std::size_t>(SoGLLightIdElement::getMaxGLSources())});
   work_.extractions = extractor_.extractions();
   clock.end("scene");
   ++work_.frames;
@@ -168,8 +176,9 @@ Result<void> Engine::drawShadowed(SoGLRenderAction* action, const Settings& sett
 
 Result<Subsets> Engine::shadowsOf(const Scan& scan, const std::optional<View>& view, const Settings& settings,
                                   shadow::PhaseClock& clock) {
-  if (scan.shapes.empty() || !view || scan.lights.size() > kMostLights) forgetShadows();
+  if (scan.shapes.empty() || !view || scan.ownStereo || scan.lights.size() > kMostLights) forgetShadows();
   if (scan.shapes.empty()) return Subsets{};
+  if (scan.ownStereo) return fail(ErrorCode::unsupported, "no shadows: stereo needs its camera before the group");
   if (!view) return fail(ErrorCode::usage, "no shadows: there is no camera");
   if (scan.lights.size() > kMostLights) return fail(ErrorCode::unsupported, "no shadows: more than 64 lights");
   if (auto done = shade(scan, *view, settings, clock); !done) return tl::unexpected(done.error());
@@ -184,6 +193,15 @@ Result<void> Engine::complaints(const Scan& scan) {
   if (scan.broken > 0)
     return fail(ErrorCode::input,
                 std::to_string(scan.broken) + " shapes cast nothing: they name points they do not have");
+  if (scan.beyond > 0)
+    return fail(ErrorCode::input, std::to_string(scan.beyond) + " shapes cast nothing: they reach beyond all measure");
+  if (scan.lightsDropped > 0)
+    return fail(ErrorCode::unsupported,
+                "OpenGL has too few lights: Coin drops the last " + std::to_string(scan.lightsDropped) + " of a shape");
+  if (scan.otherwiseSeen > 0)
+    return fail(ErrorCode::unsupported,
+                std::to_string(scan.otherwiseSeen) +
+                    " lit shapes under another camera cast nothing and show the shadows of what is behind them");
   return {};
 }
 
@@ -199,10 +217,29 @@ void Engine::drawVolumes(SoGLRenderAction* action, const Scan& scan, const Sight
   state->pop();
 }
 
+namespace {
+
+// Written volumes without a depth end here, of the scene's diameter: points at infinity leave viewers nothing to aim at.
+constexpr double kWrittenDepth = 3.0;
+
+double diameterOf(const std::vector<PlacedShape>& shapes) {
+  Box3 box;
+  for (const PlacedShape& shape : shapes)
+    for (const auto& mesh : {shape.triangles->opaque, shape.triangles->veiled})
+      if (mesh != nullptr)
+        for (const Vec3& p : mesh->positions) box.add(transformPoint(shape.toWorld, p));
+  return 2.0 * box.radius();
+}
+
+}  // namespace
+
 SoSeparator* Engine::volumesOf(const SoPath& path, const Settings& settings) {
-  const Scan scan = extractor_.scan({&path, SbViewportRegion(640, 480), &registry_, false, true});
+  const Scan scan =
+      extractor_.scan({&path, SbViewportRegion(640, 480), &registry_, false, SoGLRenderAction::SORTED_OBJECT_BLEND});
   work_.extractions = extractor_.extractions();
-  return volumes_.build(scan, settings, Caps::both, work_);
+  Settings written = settings;
+  if (!written.volumeDepth) written.volumeDepth = kWrittenDepth * diameterOf(scan.shapes);
+  return volumes_.build(scan, written, Caps::both, work_);
 }
 
 Result<void> Engine::shade(const Scan& scan, const View& view, const Settings& settings, shadow::PhaseClock& clock) {
@@ -287,7 +324,8 @@ void Engine::forgetShadows() {
 const ShadowReport& Engine::report() const {
   if (!reportIsOld_) return report_;
   reportIsOld_ = false;
-  report_ = {geometry_, view_ ? view_->pinhole : std::nullopt, {}, passes_, phases_, masks_.used()};
+  report_ = {geometry_, {}, view_ ? view_->pinhole : std::nullopt, {}, passes_, phases_, masks_.used()};
+  if (view_ && geometry_ == builder_.world().geometry) report_.unseen = Unseen(builder_.world(), *view_).all();
   for (std::size_t i = 0; i < reach_.masks.size(); ++i) {
     report_.lights.push_back({lights_[i].node, lights_[i].light, reach_.masks[i], reach_.masks[i]});
     cutCone(report_.lights.back().mask, lights_[i].light, *view_, geometry_->surfaces, reach_.triangle);

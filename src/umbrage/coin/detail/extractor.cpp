@@ -1,9 +1,11 @@
 #include "umbrage/coin/detail/extractor.hpp"
 
+#include <Inventor/SbXfBox3f.h>
 #include <Inventor/SoPath.h>
 #include <Inventor/SoPrimitiveVertex.h>
 #include <Inventor/VRMLnodes/SoVRMLLight.h>
 #include <Inventor/actions/SoCallbackAction.h>
+#include <Inventor/actions/SoGLRenderAction.h>
 #include <Inventor/annex/FXViz/elements/SoShadowStyleElement.h>
 #include <Inventor/annex/FXViz/nodes/SoShadowStyle.h>
 #include <Inventor/caches/SoCache.h>
@@ -11,19 +13,26 @@
 #include <Inventor/elements/SoLazyElement.h>
 #include <Inventor/elements/SoLightElement.h>
 #include <Inventor/elements/SoMultiTextureImageElement.h>
+#include <Inventor/elements/SoProjectionMatrixElement.h>
+#include <Inventor/elements/SoShapeStyleElement.h>
+#include <Inventor/elements/SoViewingMatrixElement.h>
 #include <Inventor/elements/SoViewportRegionElement.h>
 #include <Inventor/misc/SoState.h>
+#include <Inventor/nodes/SoCamera.h>
 #include <Inventor/nodes/SoLight.h>
 #include <Inventor/nodes/SoShape.h>
 
 #include <algorithm>
+#include <glm/matrix.hpp>
+#include <ranges>
 #include <unordered_map>
 
+#include "umbrage/coin/detail/clipping.hpp"
 #include "umbrage/coin/detail/lights.hpp"
 #include "umbrage/coin/detail/matrices.hpp"
+#include "umbrage/coin/detail/special_shapes.hpp"
 #include "umbrage/inventor/check.hpp"
 #include "umbrage/inventor/full_path.hpp"
-#include "umbrage/mesh/weld.hpp"
 
 namespace umbrage::coin::detail {
 namespace {
@@ -37,14 +46,16 @@ using CacheRef = std::unique_ptr<SoCache, Uncache>;
 
 /// How a shape's materials let light through.
 struct Veil {
+  bool counts = true;                 ///< false: Coin draws it opaque all the same
   std::vector<float> transparencies;  ///< per material; empty: none is transparent
   bool texture = false;               ///< its texture lets light through somewhere
   friend bool operator==(const Veil&, const Veil&) = default;
 };
 
-Veil veilAt(SoState* state, bool counts) {
+Veil veilAt(SoState* state) {
   Veil veil;
-  if (!counts) return veil;
+  veil.counts = SoShapeStyleElement::getTransparencyType(state) != SoGLRenderAction::NONE;
+  if (!veil.counts) return veil;
   if (state->isElementEnabled(SoMultiTextureImageElement::getClassStackIndex()))
     veil.texture = SoMultiTextureImageElement::containsTransparency(state);
   const SoLazyElement* lazy = SoLazyElement::getInstance(state);
@@ -64,20 +75,6 @@ std::vector<const SoNode*> lightsAt(SoState* state) {
   return nodes;
 }
 
-/// One part of a shape while it is read.
-struct Soup {
-  std::vector<Vec3> corners;
-  [[nodiscard]] std::shared_ptr<const mesh::Mesh> finish() const {
-    if (corners.empty()) return nullptr;
-    const mesh::Weld weld = mesh::weld(std::span<const Vec3>(corners));
-    auto mesh = std::make_shared<mesh::Mesh>();
-    for (const std::uint32_t first : weld.first) mesh->positions.push_back(corners[first]);
-    for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
-      mesh->triangles.push_back({weld.remap[i], weld.remap[i + 1], weld.remap[i + 2]});
-    return mesh;
-  }
-};
-
 struct Entry {
   CacheRef cache;
   Veil veil;
@@ -86,6 +83,16 @@ struct Entry {
 };
 
 }  // namespace
+
+// Coin tells OpenGL to leave the transforms above a camera first and to go into the camera's own space then, but notes both in the other order.
+std::optional<Sight> sightAt(SoState* state, const Mat4& cameraToWorld) {
+  const SbMatrix& projection = SoProjectionMatrixElement::get(state);
+  if (projection == SbMatrix::identity()) return std::nullopt;
+  Sight sight{SoViewingMatrixElement::get(state), projection, SoViewportRegionElement::get(state)};
+  if (cameraToWorld != Mat4(1.0))
+    sight.viewing = coinMatrixOf(cameraToWorld * matrixOf(sight.viewing) * glm::inverse(cameraToWorld));
+  return sight;
+}
 
 /// What is known of shapes, by node id: Coin gives a node another id whenever it changes, and no id twice.
 class Extractor::Memory {
@@ -99,17 +106,55 @@ class Extractor::Memory {
       if (entry.veil == veil && entry.cache->isValid(state)) return &entry;
     return nullptr;
   }
-  void add(const SoNode& shape, Entry entry) { entries_[shape.getNodeId()].push_back(std::move(entry)); }
+  // A node that changed never has its old id again, and of what another state gave only the latest may come back.
+  void add(const SoNode& shape, Entry entry) {
+    const SbUniqueId id = shape.getNodeId();
+    const auto before = ids_.find(&shape);
+    if (before != ids_.end() && before->second != id) entries_.erase(before->second);
+    ids_[&shape] = id;
+    std::erase_if(entries_[id], [&](const Entry& known) { return known.lastMet + 1 < scans; });
+    entries_[id].push_back(std::move(entry));
+  }
   void drop(const SoNode& shape) { entries_.erase(shape.getNodeId()); }
   void tidy() {
     for (auto known = entries_.begin(); known != entries_.end();) {
       std::erase_if(known->second, [&](const Entry& entry) { return entry.lastMet + kScansKept < scans; });
       known = known->second.empty() ? entries_.erase(known) : std::next(known);
     }
+    std::erase_if(ids_, [&](const auto& known) { return !entries_.contains(known.second); });
+    std::erase_if(cuts_, [&](const auto& known) { return known.second.lastMet != scans; });
+  }
+  [[nodiscard]] std::size_t kept() const {
+    std::size_t count = 0;
+    for (const auto& [id, entries] : entries_) count += entries.size();
+    return count;
+  }
+
+  /// What planes leave of a shape: the same object for as long as all are the same.
+  std::shared_ptr<const ShapeTriangles> clip(const std::shared_ptr<const ShapeTriangles>& shape, const Mat4& toWorld,
+                                             const std::vector<ClipPlane>& planes) {
+    const auto [first, last] = cuts_.equal_range(shape.get());
+    for (auto cut = first; cut != last; ++cut) {
+      if (cut->second.toWorld != toWorld || cut->second.planes != planes) continue;
+      cut->second.lastMet = scans;
+      return cut->second.left;
+    }
+    auto left = clipped(shape, toWorld, planes);
+    cuts_.insert({shape.get(), {shape, toWorld, planes, left, scans}});
+    return left;
   }
 
  private:
+  struct Cut {
+    std::shared_ptr<const ShapeTriangles> shape;
+    Mat4 toWorld;
+    std::vector<ClipPlane> planes;
+    std::shared_ptr<const ShapeTriangles> left;
+    std::size_t lastMet;
+  };
   std::unordered_map<SbUniqueId, std::vector<Entry>> entries_;
+  std::unordered_map<const SoNode*, SbUniqueId> ids_;  ///< the last one of each, to be compared only
+  std::unordered_multimap<const ShapeTriangles*, Cut> cuts_;
 };
 
 /// One walk through the graph.
@@ -126,13 +171,19 @@ class Extractor::Traversal {
   static Traversal& self(void* data) { return *static_cast<Traversal*>(data); }
   Response enter(SoCallbackAction* action, const SoNode* shape);
   void leave(SoCallbackAction* action, const SoNode* shape);
+  void readInstead(SoCallbackAction* action, const SoNode* shape, const NodeRef& copy);
   void meetLight(SoCallbackAction* action, const SoNode* node);
-  void addTriangle(SoState* state, const SoPrimitiveVertex* const (&corners)[3]);
-  void see(SoCallbackAction* action);
+  void addTriangle(SoCallbackAction* action, const SoPrimitiveVertex* const (&corners)[3]);
+  void meetCamera(SoCallbackAction* action, const SoCamera* camera);
+  void see(SoState* state);
+  [[nodiscard]] bool isSeenOtherwise(SoCallbackAction* action);
+  void receive(SoState* state, bool shadowed);
+  [[nodiscard]] bool isInside(SoCallbackAction* action) const;
   void startReading(SoState* state, Veil veil);
-  void place(SoCallbackAction* action, std::shared_ptr<const ShapeTriangles> triangles);
+  void place(SoCallbackAction* action, const SoNode& shape, std::shared_ptr<const ShapeTriangles> triangles);
   [[nodiscard]] bool isForgotten(const SoPath* path) const;
   [[nodiscard]] float transparencyAt(SoState* state, int index) const;
+  [[nodiscard]] bool isInSpace(SoCallbackAction* action, const SbVec3f& point) const;
 
   Memory& memory_;
   const ScanRequest& request_;
@@ -141,11 +192,19 @@ class Extractor::Traversal {
   bool again_ = false;
   Scan scan_;
   std::vector<const SoNode*> lightNodes_;
+  struct Camera {
+    SbMatrix viewing;
+    Mat4 toWorld;
+  };
+  std::vector<Camera> cameras_;  ///< before the first shape
+  SbMatrix viewing_;             ///< of the first shape, as Coin notes it
   // The shape that is being read:
   bool reading_ = false;
+  const SoNode* instead_ = nullptr;  ///< a copy that it is read from
   Entry entry_;
   std::optional<inventor::LongBindings> bindings_;
-  Soup opaque_, veiled_;
+  std::vector<Vec3> opaque_, veiled_;  ///< corners
+  std::optional<SbXfBox3f> space_;     ///< where its triangles are worth anything; none: everywhere
   SbBool cacheWasOpen_ = FALSE, wasInvalid_ = FALSE;
 };
 
@@ -163,7 +222,7 @@ Scan Extractor::Traversal::run() {
   const auto triangle = [](void* data, SoCallbackAction* a, const SoPrimitiveVertex* p, const SoPrimitiveVertex* q,
                            const SoPrimitiveVertex* r) {
     const SoPrimitiveVertex* const corners[3] = {p, q, r};
-    self(data).addTriangle(a->getState(), corners);
+    self(data).addTriangle(a, corners);
   };
   action.addPreCallback(SoShape::getClassTypeId(), enterShape, this);
   action.addPostCallback(SoShape::getClassTypeId(), leaveShape, this);
@@ -173,9 +232,15 @@ Scan Extractor::Traversal::run() {
     return SoCallbackAction::CONTINUE;
   };
   action.addPreCallback(SoShadowStyle::getClassTypeId(), style, nullptr);
+  const auto camera = [](void* data, SoCallbackAction* a, const SoNode* n) {
+    self(data).meetCamera(a, static_cast<const SoCamera*>(n));
+    return SoCallbackAction::CONTINUE;
+  };
+  action.addPostCallback(SoCamera::getClassTypeId(), camera, this);
   action.addPreCallback(SoLight::getClassTypeId(), light, this);
   action.addPreCallback(SoVRMLLight::getClassTypeId(), light, this);
   action.addTriangleCallback(SoShape::getClassTypeId(), triangle, this);
+  SoShapeStyleElement::setTransparencyType(action.getState(), request_.transparencyType);
   action.apply(const_cast<SoPath*>(request_.path));
   return std::move(scan_);
 }
@@ -186,30 +251,49 @@ bool Extractor::Traversal::isForgotten(const SoPath* path) const {
 }
 
 Extractor::Traversal::Response Extractor::Traversal::enter(SoCallbackAction* action, const SoNode* shape) {
+  if (instead_ != nullptr) return SoCallbackAction::CONTINUE;
   SoState* state = action->getState();
-  see(action);
+  if (!scan_.sight) see(state);
+  if (isSeenOtherwise(action)) return SoCallbackAction::PRUNE;
   if (action->getDrawStyle() != SoDrawStyle::FILLED) return SoCallbackAction::PRUNE;
   const auto verdict = inventor::judge(action, shape);
   if (verdict == inventor::ShapeVerdict::broken) ++scan_.broken;
   const bool readable =
       verdict == inventor::ShapeVerdict::read || (verdict == inventor::ShapeVerdict::nurbs && request_.hasGlx);
   if (!readable) return SoCallbackAction::PRUNE;
-  Veil veil = veilAt(state, request_.transparencyCounts);
+  Veil veil = veilAt(state);
   if (!forgotten_.empty() && isForgotten(action->getCurPath())) memory_.drop(*shape);
   if (Entry* known = memory_.find(*shape, state, veil)) {
     known->lastMet = memory_.scans;
-    place(action, known->triangles);
+    place(action, *shape, known->triangles);
     return SoCallbackAction::PRUNE;
   }
+  space_ = letterSpace(*action, *shape);
   startReading(state, std::move(veil));
-  bindings_.emplace(const_cast<SoNode*>(shape));  // callbacks show nodes as const
+  auto* own = const_cast<SoNode*>(shape);  // callbacks show nodes as const
+  if (inventor::hasShortFaces(*shape)) {
+    readInstead(action, shape, hold(own->copy()));
+    return SoCallbackAction::PRUNE;
+  }
+  bindings_.emplace(own);
   return SoCallbackAction::CONTINUE;
+}
+
+// A copy whose faces Coin tells all, at the place and in the state of the shape.
+void Extractor::Traversal::readInstead(SoCallbackAction* action, const SoNode* shape, const NodeRef& copy) {
+  inventor::dropShortFaces(copy.get());
+  bindings_.emplace(copy.get());
+  instead_ = copy.get();
+  copy->callback(action);
+  instead_ = nullptr;
+  leave(action, shape);
 }
 
 // Coin notes in an open cache which elements are read; the shape's triangles are the same for as long as those match.
 void Extractor::Traversal::startReading(SoState* state, Veil veil) {
   reading_ = true;
-  opaque_ = veiled_ = {};
+  opaque_.clear();
+  veiled_.clear();
   cacheWasOpen_ = state->isCacheOpen();
   wasInvalid_ = SoCacheElement::setInvalid(FALSE);
   state->push();
@@ -221,15 +305,16 @@ void Extractor::Traversal::startReading(SoState* state, Veil veil) {
 }
 
 void Extractor::Traversal::leave(SoCallbackAction* action, const SoNode* shape) {
-  if (!reading_) return;
+  if (!reading_ || instead_ != nullptr) return;
   reading_ = false;
   bindings_.reset();
   SoState* state = action->getState();
   state->setCacheOpen(cacheWasOpen_);
   state->pop();
   SoCacheElement::setInvalid(wasInvalid_);
-  entry_.triangles = std::make_shared<const ShapeTriangles>(ShapeTriangles{opaque_.finish(), veiled_.finish()});
-  place(action, entry_.triangles);
+  entry_.triangles = std::make_shared<const ShapeTriangles>(
+      ShapeTriangles{meshOf(opaque_), meshOf(veiled_), std::max(reachOf(opaque_), reachOf(veiled_))});
+  place(action, *shape, entry_.triangles);
   // A cache is invalid when a cache was made inside, of normals or of convex polygons, which then is there the next time.
   const bool keeps = entry_.cache->isValid(state);
   again_ = again_ || (!keeps && !last_);
@@ -238,15 +323,47 @@ void Extractor::Traversal::leave(SoCallbackAction* action, const SoNode* shape) 
   entry_ = {};
 }
 
-void Extractor::Traversal::place(SoCallbackAction* action, std::shared_ptr<const ShapeTriangles> triangles) {
+void Extractor::Traversal::place(SoCallbackAction* action, const SoNode& shape,
+                                 std::shared_ptr<const ShapeTriangles> triangles) {
   if (triangles->opaque == nullptr && triangles->veiled == nullptr) return;
   SoState* state = action->getState();
+  const Mat4 toWorld = matrixOf(action->getModelMatrix());
+  if (!(reachInWorld(triangles->reach, toWorld) <= kMostReach)) {
+    ++scan_.beyond;
+    return;
+  }
+  if (const auto planes = clipPlanesAt(state); !planes.empty()) {
+    triangles = memory_.clip(triangles, toWorld, planes);
+    if (triangles->opaque == nullptr && triangles->veiled == nullptr) return;
+  }
   const bool styled = state->isElementEnabled(SoShadowStyleElement::getClassStackIndex()) != FALSE;
   const int style = styled ? SoShadowStyleElement::get(state) : SoShadowStyleElement::CASTS_SHADOW_AND_SHADOWED;
-  scan_.receivers.push_back({(style & SoShadowStyleElement::SHADOWED) != 0, lightsAt(state)});
-  scan_.shapes.push_back(
-      {std::move(triangles), matrixOf(action->getModelMatrix()),
-       (style & SoShadowStyleElement::CASTS_SHADOW) != 0 && request_.registry->casts(*action->getCurPath())});
+  receive(state, (style & SoShadowStyleElement::SHADOWED) != 0);
+  const bool casts = (style & SoShadowStyleElement::CASTS_SHADOW) != 0 &&
+                     request_.registry->casts(*action->getCurPath()) && !isHandle(*action->getCurPath());
+  scan_.shapes.push_back({std::move(triangles), toWorld, casts, culledOf(state, shape)});
+}
+
+// Of the lights that shine on it Coin hands the first to OpenGL, and drops what is beyond.
+void Extractor::Traversal::receive(SoState* state, bool shadowed) {
+  auto lights = lightsAt(state);
+  if (lights.size() > request_.mostLights) {
+    scan_.lightsDropped = std::max(scan_.lightsDropped, lights.size() - request_.mostLights);
+    lights.resize(request_.mostLights);
+  }
+  scan_.receivers.push_back({shadowed, std::move(lights)});
+}
+
+// Shapes under another camera than the first are no part of the same world; lit ones are told of, unless they are drawn when all else is.
+bool Extractor::Traversal::isSeenOtherwise(SoCallbackAction* action) {
+  if (!scan_.sight) return false;
+  SoState* state = action->getState();
+  if (SoViewingMatrixElement::get(state) == viewing_ &&
+      SoProjectionMatrixElement::get(state) == scan_.sight->projection)
+    return false;
+  const bool lit = SoLazyElement::getLightModel(state) != SoLazyElement::BASE_COLOR;
+  if (lit && !isAnnotation(*action->getCurPath())) ++scan_.otherwiseSeen;
+  return true;
 }
 
 float Extractor::Traversal::transparencyAt(SoState* state, int index) const {
@@ -256,31 +373,49 @@ float Extractor::Traversal::transparencyAt(SoState* state, int index) const {
   return count > 0 ? SoLazyElement::getTransparency(state, std::clamp(index, 0, count - 1)) : 0.0f;
 }
 
-void Extractor::Traversal::addTriangle(SoState* state, const SoPrimitiveVertex* const (&corners)[3]) {
+void Extractor::Traversal::addTriangle(SoCallbackAction* action, const SoPrimitiveVertex* const (&corners)[3]) {
   if (!reading_) return;
   float least = 1.0f, most = 0.0f;
-  if (request_.transparencyCounts) {
-    for (const SoPrimitiveVertex* corner : corners) {
-      const float t = transparencyAt(state, corner->getMaterialIndex());
-      least = std::min(least, t);
-      most = std::max(most, t);
-    }
-    if (least >= 1.0f) return;
+  for (const SoPrimitiveVertex* corner : corners) {
+    if (space_ && !isInSpace(action, corner->getPoint())) return;
+    if (!entry_.veil.counts) continue;
+    const float t = transparencyAt(action->getState(), corner->getMaterialIndex());
+    least = std::min(least, t);
+    most = std::max(most, t);
   }
-  Soup& soup = most > 0.0f || entry_.veil.texture ? veiled_ : opaque_;
-  for (const SoPrimitiveVertex* corner : corners) soup.corners.push_back(vectorOf(corner->getPoint()));
+  if (entry_.veil.counts && least >= 1.0f) return;
+  auto& soup = most > 0.0f || entry_.veil.texture ? veiled_ : opaque_;
+  for (const SoPrimitiveVertex* corner : corners) soup.push_back(vectorOf(corner->getPoint()));
 }
 
-void Extractor::Traversal::see(SoCallbackAction* action) {
+bool Extractor::Traversal::isInSpace(SoCallbackAction* action, const SbVec3f& point) const {
+  SbVec3f world;
+  action->getModelMatrix().multVecMatrix(point, world);
+  return space_->intersect(world) != FALSE;
+}
+
+bool Extractor::Traversal::isInside(SoCallbackAction* action) const {
+  return inventor::FullPath(*action->getCurPath()).contains(inventor::FullPath(*request_.path).tail());
+}
+
+void Extractor::Traversal::meetCamera(SoCallbackAction* action, const SoCamera* camera) {
   if (scan_.sight) return;
-  const SbMatrix& projection = action->getProjectionMatrix();
-  if (projection == SbMatrix::identity()) return;
-  scan_.sight = Sight{action->getViewingMatrix(), projection, SoViewportRegionElement::get(action->getState())};
+  cameras_.push_back({action->getViewingMatrix(), matrixOf(action->getModelMatrix())});
+  if (!isInside(action)) return;
+  scan_.ownCamera = true;
+  scan_.ownStereo = camera->getStereoMode() != SoCamera::MONOSCOPIC;
+}
+
+// By the camera that says what the state says: those in separators that have ended do not.
+void Extractor::Traversal::see(SoState* state) {
+  viewing_ = SoViewingMatrixElement::get(state);
+  const auto camera = std::ranges::find(std::views::reverse(cameras_), viewing_, &Camera::viewing);
+  if (camera != cameras_.rend()) scan_.cameraToWorld = camera->toWorld;
+  scan_.sight = sightAt(state, scan_.cameraToWorld);
 }
 
 void Extractor::Traversal::meetLight(SoCallbackAction* action, const SoNode* node) {
-  const SoNode* group = inventor::FullPath(*request_.path).tail();
-  if (!inventor::FullPath(*action->getCurPath()).contains(group) || !request_.registry->shadows(*node)) return;
+  if (!isInside(action) || !request_.registry->shadows(*node)) return;
   const auto light = lightOf(*node, matrixOf(action->getModelMatrix()));
   if (!light) return;
   // Callbacks show nodes as const; the caller, who has the path, may change them.
@@ -311,5 +446,6 @@ Scan Extractor::scan(const ScanRequest& request) {
 void Extractor::forget(const SoNode* node) { forgotten_.push_back(node); }
 
 std::size_t Extractor::extractions() const { return memory_->extractions; }
+std::size_t Extractor::kept() const { return memory_->kept(); }
 
 }  // namespace umbrage::coin::detail

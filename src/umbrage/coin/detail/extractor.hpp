@@ -7,27 +7,27 @@
 #include <optional>
 #include <vector>
 
+#include "umbrage/coin/detail/culling.hpp"
 #include "umbrage/coin/detail/registry.hpp"
-#include "umbrage/mesh/mesh.hpp"
+#include "umbrage/coin/detail/shape_triangles.hpp"
 #include "umbrage/scene/light.hpp"
 
 class SoPath;
+class SoState;
 
 namespace umbrage::coin::detail {
-
-/// The triangles of one shape in its own space, by what they do to light. Null where there are none; what is fully transparent is left out.
-struct ShapeTriangles {
-  std::shared_ptr<const mesh::Mesh> opaque;
-  std::shared_ptr<const mesh::Mesh> veiled;  ///< part-transparent
-};
 
 /// A shape at one of its places.
 struct PlacedShape {
   std::shared_ptr<const ShapeTriangles> triangles;
   Mat4 toWorld{1.0};
   bool casts = true;
+  Culled culled = Culled::none;
   friend bool operator==(const PlacedShape&, const PlacedShape&) = default;
 };
+
+/// Beyond this coordinate the shadows of all others would suffer.
+inline constexpr double kMostReach = 1e15;
 
 /// What a shape can lose to shadows.
 struct Receiver {
@@ -45,6 +45,8 @@ struct Sight {
   SbMatrix viewing, projection;
   SbViewportRegion viewport;
 };
+/// As OpenGL has it. `cameraToWorld`: the model matrix where the camera stands. None without a camera.
+[[nodiscard]] std::optional<Sight> sightAt(SoState* state, const Mat4& cameraToWorld);
 
 /// A scene graph at one moment.
 struct Scan {
@@ -53,7 +55,13 @@ struct Scan {
   std::vector<PlacedLight> lights;  ///< those that shine and cast
   std::vector<SoNode*> manifold;    ///< lights that stand at several places, which are not in `lights`
   std::optional<Sight> sight;       ///< of the first shape; none without a camera before it
+  Mat4 cameraToWorld{1.0};          ///< the model matrix where the camera of that stands
+  bool ownCamera = false;           ///< a camera stands inside, before the first shape
+  bool ownStereo = false;           ///< and it is set to one eye of two
   std::size_t broken = 0;           ///< shapes left out, since they name points that they do not have
+  std::size_t beyond = 0;           ///< shapes left out, since they reach beyond all measure
+  std::size_t lightsDropped = 0;    ///< by Coin, where most shine at once, for OpenGL has no more
+  std::size_t otherwiseSeen = 0;    ///< lit shapes left out, since they are seen by another camera than the first shape
 };
 
 struct ScanRequest {
@@ -62,7 +70,8 @@ struct ScanRequest {
   const Registry* registry = nullptr;
   bool hasGlx =
       false;  ///< GLX works here: Coin makes a context with it to take NURBS apart, and dies where there is none
-  bool transparencyCounts = true;  ///< false: Coin draws everything opaque
+  int transparencyType = 0;    ///< SoGLRenderAction's, where no SoTransparencyType says another
+  std::size_t mostLights = 8;  ///< that OpenGL has
 };
 
 /// Reads scene graphs, and keeps the triangles of shapes for as long as Coin's own rules for its caches say that they stay the same: the shape's
@@ -81,6 +90,8 @@ class Extractor {
 
   /// Shapes that were read so far.
   [[nodiscard]] std::size_t extractions() const;
+  /// Shapes whose triangles are kept, once for each state that they were read in.
+  [[nodiscard]] std::size_t kept() const;
 
  private:
   class Traversal;

@@ -22,6 +22,8 @@ const Node* as(const SoNode& node) {
   return node.isOfType(Node::getClassTypeId()) ? static_cast<const Node*>(&node) : nullptr;
 }
 
+bool isFar(const Vec3& v) { return glm::length(v) > scene::kFarthestLight; }
+
 template <class Node>
 Shape spot(const Node& node, const Mat4& m) {
   // OpenGL takes no cone wider than a half space.
@@ -50,6 +52,15 @@ std::optional<Shape> shapeOf(const SoNode& node, const Mat4& m) {
   return std::nullopt;
 }
 
+// A light beyond all distances shines from its direction. What a spot light's cone leaves dark, OpenGL leaves dark by itself.
+Shape broughtNear(const Shape& shape) {
+  const auto* lamp = std::get_if<scene::PointLight>(&shape);
+  const auto* spot = std::get_if<scene::SpotLight>(&shape);
+  if (lamp == nullptr && spot == nullptr) return shape;
+  const Vec3& at = lamp != nullptr ? lamp->position : spot->position;
+  return isFar(at) ? scene::DirectionalLight{-at} : shape;
+}
+
 template <class Node>
 void describe(const Node& node, scene::Light& light) {
   const SbColor c = node.color.getValue();
@@ -67,7 +78,7 @@ std::optional<scene::Light> lightOf(const SoNode& node, const Mat4& toWorld) {
   const auto shape = shapeOf(node, toWorld);
   if (!shape) return std::nullopt;
   scene::Light light;
-  light.shape = *shape;
+  light.shape = broughtNear(*shape);
   light.name = node.getName().getString();
   if (const auto* vrml = as<SoVRMLLight>(node))
     describe(*vrml, light);
@@ -78,9 +89,10 @@ std::optional<scene::Light> lightOf(const SoNode& node, const Mat4& toWorld) {
   return light;
 }
 
-SoSFBool& switchOf(SoNode& node) {
-  if (node.isOfType(SoVRMLLight::getClassTypeId())) return static_cast<SoVRMLLight&>(node).on;
-  return static_cast<SoLight&>(node).on;
+std::vector<SoSFFloat*> brightnessOf(SoNode& node) {
+  if (!node.isOfType(SoVRMLLight::getClassTypeId())) return {&static_cast<SoLight&>(node).intensity};
+  auto& light = static_cast<SoVRMLLight&>(node);
+  return {&light.intensity, &light.ambientIntensity};
 }
 
 scene::Light withoutCone(scene::Light light) {

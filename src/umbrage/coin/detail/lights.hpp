@@ -1,12 +1,13 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "umbrage/scene/light.hpp"
 
 class SoFieldContainer;
 class SoNode;
-class SoSFBool;
+class SoSFFloat;
 
 namespace umbrage::coin::detail {
 
@@ -16,8 +17,8 @@ namespace umbrage::coin::detail {
 /// `toWorld`: the model matrix where it stands.
 [[nodiscard]] std::optional<scene::Light> lightOf(const SoNode& node, const Mat4& toWorld);
 
-/// The field that switches it on. REQUIRES: isLight(node).
-[[nodiscard]] SoSFBool& switchOf(SoNode& node);
+/// The fields that all its light is proportional to, each for a part. REQUIRES: isLight(node).
+[[nodiscard]] std::vector<SoSFFloat*> brightnessOf(SoNode& node);
 
 /// The same light without its cone: how far it reaches round about is another question than what hides it.
 [[nodiscard]] scene::Light withoutCone(scene::Light light);

@@ -1,6 +1,6 @@
 #include "umbrage/coin/detail/lights_off.hpp"
 
-#include <Inventor/fields/SoSFBool.h>
+#include <Inventor/fields/SoSFFloat.h>
 #include <Inventor/nodes/SoNode.h>
 
 #include <ranges>
@@ -11,20 +11,20 @@ namespace umbrage::coin::detail {
 
 LightsOff::LightsOff(std::span<SoNode* const> lights) {
   for (SoNode* node : lights) {
-    SoSFBool& on = switchOf(*node);
-    node->ref();
-    (void)on.getValue();  // a connected field is evaluated before it is overwritten
-    saved_.push_back({node, on.isDefault() != FALSE, on.enableNotify(FALSE) != FALSE});
-    on.setValue(FALSE);
+    for (SoSFFloat* field : brightnessOf(*node)) {
+      node->ref();
+      const float value = field->getValue();  // a connected field is evaluated before it is overwritten
+      saved_.push_back({node, field, value, field->isDefault() != FALSE, field->enableNotify(FALSE) != FALSE});
+      field->setValue(0.0f);
+    }
   }
 }
 
 LightsOff::~LightsOff() {
   for (const Saved& saved : std::views::reverse(saved_)) {
-    SoSFBool& on = switchOf(*saved.node);
-    on.setValue(TRUE);
-    on.setDefault(saved.wasDefault ? TRUE : FALSE);
-    on.enableNotify(saved.notified ? TRUE : FALSE);
+    saved.field->setValue(saved.value);
+    saved.field->setDefault(saved.wasDefault ? TRUE : FALSE);
+    saved.field->enableNotify(saved.notified ? TRUE : FALSE);
     saved.node->unref();
   }
 }

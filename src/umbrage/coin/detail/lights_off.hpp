@@ -4,13 +4,13 @@
 #include <vector>
 
 class SoNode;
-class SoSFBool;
+class SoSFFloat;
 
 namespace umbrage::coin::detail {
 
-/// Light nodes are off for as long as this lives, and nobody is told: no sensor fires, no cache and no node id changes, and files written later hold
+/// Light nodes are black for as long as this lives, and nobody is told: no sensor fires, no cache and no node id changes, and files written later hold
 /// what the user set. Coin has no hook between a light and the shapes that it shines on, so the fields themselves are switched, and back before
-/// anybody else sees them.
+/// anybody else sees them. They stay on: OpenGL has few lights, and another that Coin had to drop would take the place.
 class LightsOff {
  public:
   explicit LightsOff(std::span<SoNode* const> lights);
@@ -21,6 +21,8 @@ class LightsOff {
  private:
   struct Saved {
     SoNode* node;
+    SoSFFloat* field;
+    float value;
     bool wasDefault, notified;
   };
   std::vector<Saved> saved_;

@@ -103,7 +103,7 @@ Result<Reach> MaskMaker::byTechnique(const View& view, std::span<const scene::Li
 }
 
 Result<Reach> MaskMaker::byRays(const World& world, const View& view, std::span<const scene::Light> lights) {
-  auto seen = look(*occlusion_, view, world.unseen);
+  auto seen = look(*occlusion_, view, Unseen(world, view));
   if (!seen) return tl::unexpected(seen.error());
   Reach reach;
   for (const scene::Light& light : lights) {
@@ -116,8 +116,54 @@ Result<Reach> MaskMaker::byRays(const World& world, const View& view, std::span<
   return reach;
 }
 
+namespace {
+
+// Where a technique has seen a triangle that is not drawn; empty: nowhere.
+image::GreyImage missed(const Reach& reach, const Unseen& unseen) {
+  image::GreyImage where;
+  std::uint32_t last = shadow::kNoTriangle;  // neighbours mostly see the same
+  bool isMissed = false;
+  for (std::size_t i = 0; i < reach.triangle.size(); ++i) {
+    const std::uint32_t triangle = reach.triangle.pixels()[i];
+    if (triangle != last) isMissed = triangle != shadow::kNoTriangle && unseen(triangle);
+    last = triangle;
+    if (!isMissed) continue;
+    if (where.empty()) where = image::GreyImage(reach.triangle.width(), reach.triangle.height());
+    where.pixels()[i] = 1;
+  }
+  return where;
+}
+
+template <class T>
+void copyWhere(const image::GreyImage& where, const image::Image<T>& from, image::Image<T>& to) {
+  for (std::size_t i = 0; i < where.size(); ++i)
+    if (where.pixels()[i] != 0) to.pixels()[i] = from.pixels()[i];
+}
+
+}  // namespace
+
+// Backs of closed solids hide behind their fronts, so mostly nothing is to be done.
+Result<void> MaskMaker::seeThrough(const World& world, const View& view, std::span<const scene::Light> lights,
+                                   Reach& reach) {
+  if (world.culled.empty()) return {};
+  const Unseen unseen(world, view);
+  const image::GreyImage where = missed(reach, unseen);
+  if (where.empty()) return {};
+  if (auto done = prepareRays(world); !done) return done;
+  auto seen = look(*occlusion_, view, unseen, &where);
+  if (!seen) return tl::unexpected(seen.error());
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    auto mask = rayMask(*occlusion_, view, *seen, lights[i]);
+    if (!mask) return tl::unexpected(mask.error());
+    copyWhere(where, mask->light, reach.masks[i].light);
+    copyWhere(where, mask->covered, reach.masks[i].covered);
+  }
+  copyWhere(where, seen->triangle, reach.triangle);
+  return {};
+}
+
 // Techniques take pinholes, and see whatever casts.
-bool MaskMaker::needsRays(const World& world, const View& view) { return !view.pinhole || !world.unseen.empty(); }
+bool MaskMaker::needsRays(const World& world, const View& view) { return !view.pinhole || !world.veiled.empty(); }
 
 Result<void> MaskMaker::prepare(const World& world, const View& view, Method method) {
   if (needsRays(world, view)) return prepareRays(world);
@@ -126,7 +172,11 @@ Result<void> MaskMaker::prepare(const World& world, const View& view, Method met
 }
 
 Result<Reach> MaskMaker::masks(const World& world, const View& view, std::span<const scene::Light> lights) {
-  return needsRays(world, view) ? byRays(world, view, lights) : byTechnique(view, lights);
+  if (needsRays(world, view)) return byRays(world, view, lights);
+  auto reach = byTechnique(view, lights);
+  if (reach)
+    if (auto done = seeThrough(world, view, lights, *reach); !done) return tl::unexpected(done.error());
+  return reach;
 }
 
 }  // namespace umbrage::coin::detail

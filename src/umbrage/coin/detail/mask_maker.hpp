@@ -5,19 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "umbrage/coin/detail/view.hpp"
+#include "umbrage/coin/detail/world.hpp"
 #include "umbrage/coin/settings.hpp"
 #include "umbrage/shadow/technique.hpp"
 #include "umbrage/trace/occlusion.hpp"
 
 namespace umbrage::coin::detail {
-
-/// The casters and receivers of the world.
-struct World {
-  std::shared_ptr<const shadow::Geometry> geometry;
-  std::vector<std::size_t> shapeOf;  ///< per instance: the placed shape that it is of
-  std::vector<std::uint8_t> unseen;  ///< per triangle, 1 where it casts but is looked through; empty: none
-};
 
 /// Which light reaches what.
 struct Reach {
@@ -48,6 +41,8 @@ class MaskMaker {
   [[nodiscard]] Result<void> prepareRays(const World& world);
   [[nodiscard]] static bool needsRays(const World& world, const View& view);
   [[nodiscard]] Result<Reach> byTechnique(const View& view, std::span<const scene::Light> lights);
+  [[nodiscard]] Result<void> seeThrough(const World& world, const View& view, std::span<const scene::Light> lights,
+                                        Reach& reach);
   [[nodiscard]] Result<Reach> byRays(const World& world, const View& view, std::span<const scene::Light> lights);
   void drop();
 

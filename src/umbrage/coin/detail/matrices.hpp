@@ -17,4 +17,11 @@ inline Mat4 matrixOf(const SbMatrix& given) {
   return m;
 }
 
+inline SbMatrix coinMatrixOf(const Mat4& given) {
+  SbMatrix m;
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 4; ++k) m[i][k] = static_cast<float>(given[i][k]);
+  return m;
+}
+
 }  // namespace umbrage::coin::detail

@@ -25,11 +25,11 @@ struct Shadowing {
 };
 
 std::optional<trace::Hit> firstSeen(const trace::Occlusion& occlusion, Vec3 from, const Vec3& direction,
-                                    std::span<const std::uint8_t> unseen) {
+                                    const Unseen& unseen) {
   double passed = 0.0;
   for (;;) {
     const auto hit = occlusion.nearest(from + passed * direction, direction);
-    if (!hit || unseen.empty() || unseen[hit->triangle] == 0) {
+    if (!hit || !unseen(hit->triangle)) {
       if (!hit) return hit;
       return trace::Hit{hit->triangle, passed + hit->at};
     }
@@ -94,13 +94,15 @@ void shade(const Shadowing& s, const trace::Tile& tile, image::GreyImage& lit) {
 
 }  // namespace
 
-Result<SeenPoints> look(const trace::Occlusion& occlusion, const View& view, std::span<const std::uint8_t> unseen) {
+Result<SeenPoints> look(const trace::Occlusion& occlusion, const View& view, const Unseen& unseen,
+                        const image::GreyImage* where) {
   SeenPoints seen{image::Image<std::uint32_t>(view.width, view.height, shadow::kNoTriangle),
                   image::Image<Vec3>(view.width, view.height)};
   const Vec3 origin = occlusion.surfaces().origin;
   auto done = trace::forEachTile(view.width, view.height, [&](const trace::Tile& tile) {
     for (int y = tile.y0; y < tile.y1; ++y) {
       for (int x = tile.x0; x < tile.x1; ++x) {
+        if (where != nullptr && (*where)(x, y) == 0) continue;
         const ViewRay ray = rayThrough(view, x + 0.5, y + 0.5);
         const auto hit = firstSeen(occlusion, ray.from - origin, ray.direction, unseen);
         if (!hit) continue;

@@ -1,10 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
-#include <vector>
 
-#include "umbrage/coin/detail/view.hpp"
+#include "umbrage/coin/detail/world.hpp"
 #include "umbrage/shadow/light_mask.hpp"
 #include "umbrage/trace/occlusion.hpp"
 
@@ -16,10 +14,10 @@ struct SeenPoints {
   image::Image<Vec3> point;
 };
 
-/// By rays from the near plane, in double precision. `unseen`: per triangle, 1 where it is looked through; empty: none is.
+/// By rays from the near plane, in double precision. `where`: the pixels that are wanted, others see nothing; null: all.
 /// Errors: ErrorCode::device when memory runs out.
-[[nodiscard]] Result<SeenPoints> look(const trace::Occlusion& occlusion, const View& view,
-                                      std::span<const std::uint8_t> unseen);
+[[nodiscard]] Result<SeenPoints> look(const trace::Occlusion& occlusion, const View& view, const Unseen& unseen,
+                                      const image::GreyImage* where = nullptr);
 
 /// By rays from the points seen to the light. For views that no technique takes, and for casters that are not seen.
 /// Errors: ErrorCode::device when memory runs out.

@@ -5,6 +5,7 @@
 #include <Inventor/nodes/SoIndexedFaceSet.h>
 #include <Inventor/nodes/SoLightModel.h>
 #include <Inventor/nodes/SoMaterial.h>
+#include <Inventor/nodes/SoPolygonOffset.h>
 #include <Inventor/nodes/SoSeparator.h>
 #include <Inventor/nodes/SoShapeHints.h>
 #include <Inventor/nodes/SoTranslation.h>
@@ -66,7 +67,7 @@ SoSeparator* nodesOf(const shadow::CasterSet& casters, const Vec4& light, std::o
 }
 
 // Unlit, blended where it stands, hiding nothing.
-SoSeparator* emptyRoot() {
+SoSeparator* emptyRoot(Caps caps) {
   auto* root = new SoSeparator;
   auto* model = new SoLightModel;
   model->model = SoLightModel::BASE_COLOR;
@@ -77,6 +78,7 @@ SoSeparator* emptyRoot() {
   auto* hints = new SoShapeHints;  // both sides are seen, and nothing is known of their order
   hints->vertexOrdering = SoShapeHints::UNKNOWN_ORDERING;
   for (SoNode* node : std::initializer_list<SoNode*>{model, blended, depth, hints}) root->addChild(node);
+  if (caps == Caps::both) root->addChild(new SoPolygonOffset);  // caps lie in the faces of their casters, and give way
   return root;
 }
 
@@ -146,7 +148,7 @@ VolumeMaker::Made& VolumeMaker::volumeOf(const std::shared_ptr<const mesh::Mesh>
 
 SoSeparator* VolumeMaker::build(const Scan& scan, const Settings& settings, Caps caps, Work& work) {
   ++turn_;
-  SoSeparator* root = emptyRoot();
+  SoSeparator* root = emptyRoot(caps);
   NodeRef owned = hold(root);
   bool any = false;
   for (const PlacedLight& light : scan.lights) {
