@@ -88,7 +88,8 @@ TEST(ParseLight, RefusesWithARemedy) {
                            "spot:0,0,0,0,0,-1,181", "spot:0,0,0,0,0,-1,-5", "point:1,2,3,#ff", "point:1,2,3,#ffffff,-1",
                            "point:1,2,3,#ffffff,inf", "point:1,2,3,#ffffff,1,2", "point 1,2,3"})
     EXPECT_FALSE(parseLight(word)) << word;
-  EXPECT_THAT(messageOf(parseLight("sun:1,2,3")), HasSubstr("directional:dx,dy,dz"));
+  EXPECT_THAT(messageOf(parseLight("lamp:1,2,3")), HasSubstr("directional:dx,dy,dz"));
+  EXPECT_THAT(messageOf(parseLight("sun:1,2,3")), HasSubstr("sun:dx,dy,dz,DIAMETER_DEG"));
   EXPECT_THAT(messageOf(parseLight("sphere:0,0,5,-1")), HasSubstr("no extent"));
 }
 
