@@ -10,6 +10,7 @@
 
 #include "median.hpp"
 #include "scenes/staged_scene.hpp"
+#include "umbrage/shadow/composite.hpp"
 #include "umbrage/techniques/cpu/registry.hpp"
 
 namespace umbrage::benchmarks {
@@ -65,11 +66,22 @@ std::vector<Case> cases() {
   return all;
 }
 
-double once(shadow::Technique& technique, const Case& c, std::optional<int> layers) {
+/// Milliseconds: the masks, and with the picture.
+struct Times {
+  double masks, picture;
+};
+
+double since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+Times once(shadow::Technique& technique, const Case& c, const shadow::Geometry& geometry, std::optional<int> layers) {
   const auto start = std::chrono::steady_clock::now();
   const auto shading = technique.shade({.camera = c.camera, .lights = {&c.light, 1}, .veilLayers = layers});
-  if (!shading) std::puts(shading.error().text().c_str());
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  const double masks = since(start);
+  if (!shading) return std::puts(shading.error().text().c_str()), Times{};
+  const auto picture = shadow::composite(c.scene, geometry.surfaces, c.camera, *shading, {&c.light, 1});
+  return {masks, since(start)};
 }
 
 void measure(Case c, int rounds) {
@@ -77,18 +89,21 @@ void measure(Case c, int rounds) {
   const auto geometry = shadow::makeGeometry(c.scene);
   const auto opaque = technique("zpass_cpu"), tinted = technique("transparent_cpu");
   if (!opaque->prepare(geometry) || !tinted->prepare(geometry)) return;
-  std::vector<double> times[3];
+  std::vector<double> masks[3], pictures[3];
   for (int i = -1; i < rounds; ++i) {
-    const double t[3] = {once(*opaque, c, {}), once(*tinted, c, 0), once(*tinted, c, {})};
-    for (int k = 0; k < 3 && i >= 0; ++k) times[k].push_back(t[k]);
+    const Times t[3] = {once(*opaque, c, *geometry, {}), once(*tinted, c, *geometry, 0),
+                        once(*tinted, c, *geometry, {})};
+    for (int k = 0; k < 3 && i >= 0; ++k) masks[k].push_back(t[k].masks), pictures[k].push_back(t[k].picture);
   }
   const auto plain = opaque->shade({.camera = c.camera, .lights = {&c.light, 1}});
   const auto quick = tinted->shade({.camera = c.camera, .lights = {&c.light, 1}, .veilLayers = 0});
   const auto shading = tinted->shade({.camera = c.camera, .lights = {&c.light, 1}});
-  const double base = median(times[0]), fast = median(times[1]), full = median(times[2]);
-  fmt::print(
-      "{:48} opaque {:6.1f}   without self-shadows {:6.1f} ({:.2f}x)   with {:6.1f} ({:.2f}x)   {:.2f} veils a pixel\n",
-      c.name, base, fast, fast / base, full, full / base, double(shading->veils.veils.size()) / (1280.0 * 720.0));
+  fmt::print("{}; {:.2f} veils a pixel\n", c.name, double(shading->veils.veils.size()) / (1280.0 * 720.0));
+  for (const auto& [what, times] : {std::pair{"masks", masks}, {"with the picture", pictures}}) {
+    const double base = median(times[0]), fast = median(times[1]), full = median(times[2]);
+    fmt::print("  {:18} opaque {:6.1f}   without self-shadows {:6.1f} ({:.2f}x)   with {:6.1f} ({:.2f}x)\n", what, base,
+               fast, fast / base, full, full / base);
+  }
   for (const auto* one : {&plain, &quick, &shading}) {
     for (const auto& phase : (*one)->stats.phases) fmt::print("    {} {:.1f}", phase.name, phase.milliseconds);
     fmt::print("\n");

@@ -2,12 +2,37 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "umbrage/base/check.hpp"
 
 namespace umbrage::image {
+
+/// Makes values without setting them where their type lets it: large pictures that are painted all over by many threads are not filled by one before.
+template <class T>
+struct UnsetAllocator : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = UnsetAllocator<U>;
+  };
+  UnsetAllocator() = default;
+  template <class U>
+  UnsetAllocator(const UnsetAllocator<U>&) {}
+  template <class U>
+  void construct(U* at) {
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <class U, class First, class... Rest>
+  void construct(U* at, First&& first, Rest&&... rest) {
+    ::new (static_cast<void*>(at)) U(std::forward<First>(first), std::forward<Rest>(rest)...);
+  }
+};
+/// A vector whose new values mean nothing.
+template <class T>
+using UnsetVector = std::vector<T, UnsetAllocator<T>>;
 
 /// A dense picture of `T`, row by row from the top left.
 template <class T>
@@ -15,8 +40,19 @@ class Image {
  public:
   Image() = default;
   Image(int width, int height, const T& fill = T{})
-      : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill) {
+      : width_(width),
+        height_(height),
+        pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill) {
     UMBRAGE_CHECK(width >= 0 && height >= 0, "image size");
+  }
+
+  /// For who sets every pixel: what they hold before means nothing.
+  [[nodiscard]] static Image unset(int width, int height) {
+    UMBRAGE_CHECK(width >= 0 && height >= 0, "image size");
+    Image image;
+    image.width_ = width, image.height_ = height;
+    image.pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    return image;
   }
 
   [[nodiscard]] int width() const { return width_; }
@@ -25,7 +61,9 @@ class Image {
   [[nodiscard]] std::size_t size() const { return pixels_.size(); }
   [[nodiscard]] std::span<T> pixels() { return pixels_; }
   [[nodiscard]] std::span<const T> pixels() const { return pixels_; }
-  [[nodiscard]] T* row(int y) { return pixels_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width_); }
+  [[nodiscard]] T* row(int y) {
+    return pixels_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
+  }
   [[nodiscard]] const T* row(int y) const {
     return pixels_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
   }
@@ -37,7 +75,7 @@ class Image {
  private:
   int width_ = 0;
   int height_ = 0;
-  std::vector<T> pixels_;
+  UnsetVector<T> pixels_;
 };
 
 struct Rgb8 {

@@ -170,8 +170,8 @@ Result<void> SurfaceRaster::draw(const PixelSpace& space, const SeenPositions& p
 }
 
 Result<shadow::SurfaceBuffer> surfaceBuffer(const PixelSpace& space, const SeenBlocks& seen) {
-  shadow::SurfaceBuffer out{{space.width, space.height, shadow::kNoTriangle},
-                            {space.width, space.height, std::numeric_limits<float>::infinity()}};
+  shadow::SurfaceBuffer out{image::Image<std::uint32_t>::unset(space.width, space.height),
+                            image::Image<float>::unset(space.width, space.height)};
   const auto scale = static_cast<float>(space.scale);
   auto done = parallel::forEach((space.height + kBand - 1) / kBand, [&](int band) {
     forEachRowPiece(seen.triangle.columns, space.width, space.height, band,

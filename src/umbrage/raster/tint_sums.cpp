@@ -58,6 +58,7 @@ struct BlockSurfaces {
 
 // Adds where the patch covers a pixel and is nearer than a layer's surface there. Leaves alone those pixels where single precision cannot tell,
 // and says whether there are any.
+template <std::size_t kUsed>
 UMBRAGE_IN_BLOCKS bool sumInBlock(const BlockPatch& p, const Span& rows, const Weight& weight,
                                   const BlockSurfaces& block) {
   const Float8 lane{0, 1, 2, 3, 4, 5, 6, 7};
@@ -73,11 +74,9 @@ UMBRAGE_IN_BLOCKS bool sumInBlock(const BlockPatch& p, const Span& rows, const W
       const Float8 before = f[3] - nearness * p.distance;
       const Int8 sure = in & (before > p.doubt[3]);
       unsure |= (maybeIn & (before > -p.doubt[3])) ^ sure;
-      for (std::size_t c = 0; c < weight.usedCount; ++c) {
-        const std::size_t channel = weight.used[c];
-        auto& sum = reinterpret_cast<Int8&>(block.sums[l].channel[channel][static_cast<std::size_t>(row * kBlock)]);
-        sum += sure & weight.of[channel];
-      }
+      for (std::size_t c = 0; c < kUsed; ++c)
+        reinterpret_cast<Int8&>(block.sums[l].channel[weight.used[c]][static_cast<std::size_t>(row * kBlock)]) +=
+            sure & weight.of[weight.used[c]];
     }
     for (int k = 0; k < 4; ++k) f[k] += p.dy[k];
   }
@@ -126,6 +125,7 @@ class BandSums {
     for (auto& whole : whole_) whole.assign(depths.stride() * static_cast<std::size_t>(last_ - first_), 0);
   }
 
+  template <std::size_t kUsed>
   UMBRAGE_IN_BLOCKS void add(const Patch& patch, const Weight& weight, std::uint64_t tiles) {
     const int begin = std::max(first_, patch.y0 / kBlock), end = std::min(last_, (patch.y1 + kBlock - 1) / kBlock);
     for (int row = begin; row < end; ++row) {
@@ -133,7 +133,7 @@ class BandSums {
       if (farthest >= ReceiverDepths::kNothing) continue;
       const Span columns = columnsOf(patch, row, row + 1, double(farthest) * (1.0 - 0x1p-20));
       for (int column = columns.begin & ~(kTileBlocks - 1); column < columns.end; column += kTileBlocks)
-        if ((tiles >> std::min(63, column / kTileBlocks) & 1u) != 0) addInEight(patch, weight, column, row);
+        if ((tiles >> std::min(63, column / kTileBlocks) & 1u) != 0) addInEight<kUsed>(patch, weight, column, row);
     }
   }
 
@@ -163,6 +163,7 @@ class BandSums {
             out_.parted.data() + surface};
   }
 
+  template <std::size_t kUsed>
   UMBRAGE_IN_BLOCKS void addInEight(const Patch& patch, const Weight& weight, int column, int row) {
     BlockPatch p;
     overSquares<kBlock>(patch, column, row, p);
@@ -170,7 +171,7 @@ class BandSums {
     const auto k = static_cast<std::size_t>(column);
     const float* nearest = depths_.nearest(row) + k;
     Parts parts = lookAtEight(p, depths_.farthest(row) + k, nearest);
-    for (std::size_t c = 0; c < weight.usedCount; ++c) {
+    for (std::size_t c = 0; c < kUsed; ++c) {
       std::int32_t* whole = &whole_[weight.used[c]][local(column, row)];
       Int8 sum;
       __builtin_memcpy(&sum, whole, sizeof sum);
@@ -186,7 +187,8 @@ class BandSums {
       here.doubt[3] += 0x1p-20f * p.distance * nearest[further];
       const BlockSurfaces block = surfacesAt(column + further, row);
       block.part();
-      if (sumInBlock(here, rows, weight, block)) sumUnsure(patch, here, rows, weight, block, column + further, row);
+      if (sumInBlock<kUsed>(here, rows, weight, block))
+        sumUnsure(patch, here, rows, weight, block, column + further, row);
     }
   }
 
@@ -228,8 +230,20 @@ class BandSums {
   std::array<std::vector<std::int32_t>, kChannels> whole_;
 };
 
+template <std::size_t kUsed>
 UMBRAGE_VECTOR_UNITS void addPatch(BandSums& band, const Patch& patch, const Weight& weight, std::uint64_t tiles) {
-  band.add(patch, weight, tiles);
+  band.add<kUsed>(patch, weight, tiles);
+}
+
+// What is opaque uses one channel, glass mostly three.
+void addPatchOf(BandSums& band, const Patch& patch, const Weight& weight, std::uint64_t tiles) {
+  switch (weight.usedCount) {
+    case 1: return addPatch<1>(band, patch, weight, tiles);
+    case 2: return addPatch<2>(band, patch, weight, tiles);
+    case 3: return addPatch<3>(band, patch, weight, tiles);
+    case 4: return addPatch<4>(band, patch, weight, tiles);
+    default: return;
+  }
 }
 
 }  // namespace
@@ -261,7 +275,7 @@ Result<void> TintSums::find(const Request& request, TintField& out) {
   return parallel::forEach(bands_.count(), [&](int band) {
     BandSums sums(request, corners, depths_, band, out);
     bands_.forEachIn(band, [&](const Patch& patch, std::uint64_t tiles) {
-      addPatch(sums, patch, weightOf(request, casters_, patch), tiles);
+      addPatchOf(sums, patch, weightOf(request, casters_, patch), tiles);
     });
     sums.finish(atEye_);
   });

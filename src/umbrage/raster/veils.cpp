@@ -115,12 +115,11 @@ void sortFew(std::span<shadow::Veil> veils) {
 
 // Puts a band's fragments where they belong. `first`: per pixel of the band, and one more.
 void place(std::span<const Fragment> fragments, std::span<std::uint32_t> first, float scale,
-           std::vector<shadow::Veil>& veils) {
+           std::span<shadow::Veil> veils) {
   std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
   for (const Fragment& f : fragments) veils[next[f.pixel]++] = {f.triangle, 1.0f / (f.nearness * scale)};
   for (std::size_t pixel = 0; pixel + 1 < first.size(); ++pixel)
-    if (first[pixel + 1] - first[pixel] > 1)
-      sortFew(std::span(veils).subspan(first[pixel], first[pixel + 1] - first[pixel]));
+    if (first[pixel + 1] - first[pixel] > 1) sortFew(veils.subspan(first[pixel], first[pixel + 1] - first[pixel]));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace umbrage::shadow {
 
 /// Parts of light per channel, 65535 being all.
 struct Tint {
-  std::uint16_t r = 0, g = 0, b = 0;
+  std::uint16_t r, g, b;
   friend bool operator==(const Tint&, const Tint&) = default;
 };
 inline constexpr Tint kFullTint{65535, 65535, 65535};
@@ -28,7 +28,7 @@ struct LightMask {
   image::GreyImage light;
   image::Image<Tint> tint;
   image::GreyImage covered;
-  std::vector<Tint> veils;
+  image::UnsetVector<Tint> veils;
 };
 
 /// The luminance, as an 8-bit code.

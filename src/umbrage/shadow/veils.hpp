@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "umbrage/image/image.hpp"
+
 namespace umbrage::shadow {
 
 /// A surface that lets light through, where one pixel shows it.
@@ -16,7 +18,7 @@ struct Veil {
 struct VeilBuffer {
   std::vector<std::uint32_t>
       first;  ///< per pixel, row by row from the top: where its veils begin; one more. Empty: there are none at all
-  std::vector<Veil> veils;  ///< of each pixel the nearest first
+  image::UnsetVector<Veil> veils;  ///< of each pixel the nearest first
 
   [[nodiscard]] bool empty() const { return veils.empty(); }
   /// Of a pixel, by its number in that order.

@@ -106,7 +106,8 @@ double CpuVolumes::depthOf(std::uint32_t triangle, const Vec3& ray) const {
 }
 
 Result<shadow::LightMask> CpuVolumes::paint(const scene::Camera& camera, const scene::Light& light) const {
-  shadow::LightMask mask{{camera.width, camera.height}, {}, {camera.width, camera.height}};
+  shadow::LightMask mask{
+      image::GreyImage::unset(camera.width, camera.height), {}, image::GreyImage::unset(camera.width, camera.height)};
   const bool isSpot = std::holds_alternative<scene::SpotLight>(light.shape);
   const scene::PixelRays rays = scene::pixelRays(camera);
   const auto inCone = [&](std::uint32_t triangle, int x, int y) {

@@ -110,6 +110,17 @@ class TintedVolumes::Painting {
     const auto& triangles = volumes_.seen_.triangle.blocks[block_].pixel;
     const bool isWhole = volumes_.field_.isWhole(surface_);
     shadow::Tint lit = isWhole ? passing(volumes_.field_.whole[block_]) : shadow::Tint{};
+    const auto count = static_cast<std::size_t>(end - begin);
+    const std::uint64_t all = (std::uint64_t{1} << count) - 1;
+    const bool none = (receivers & all) == 0;
+    if (none || (isWhole && (receivers & all) == all)) {
+      const shadow::Tint tint = none ? shadow::Tint{} : lit;
+      std::fill_n(mask_.tint.row(y) + begin, count, tint);
+      std::fill_n(mask_.light.row(y) + begin, count, codeOf(tint));
+      for (std::size_t k = 0; k < count; ++k)
+        mask_.covered.row(y)[static_cast<std::size_t>(begin) + k] = triangles[first + k] != shadow::kNoTriangle ? 1 : 0;
+      return;
+    }
     for (int x = begin; x < end; ++x) {
       const auto k = static_cast<std::size_t>(x - begin);
       const bool faces = (receivers >> k & 1u) != 0;
@@ -148,11 +159,19 @@ class TintedVolumes::Painting {
   [[nodiscard]] shadow::Tint veilLight(std::span<const shadow::Veil> veils, std::size_t k, const Pixel& p,
                                        const shadow::FilterSum& crossed, const shadow::Tint& last) {
     if (volumes_.litLayers_ == 0)
-      return facing_.faces(veils[k].triangle) && isInCone(veils[k].triangle, p) ? shadow::kFullTint : shadow::Tint{};
+      return mayFace(veils[k].triangle) && facing_.faces(veils[k].triangle) && isInCone(veils[k].triangle, p)
+                 ? shadow::kFullTint
+                 : shadow::Tint{};
     if (k >= volumes_.litLayers_) return last;
     const std::size_t surface = surface_ + 1 + k;
     if ((volumes_.receivers_[surface] >> p.local & 1u) == 0) return {};
     return lightAt(veils[k], surface, veils.first(k), p, crossed);
+  }
+
+  /// False where a veil surely does not face the light: the signs are there anyway.
+  [[nodiscard]] bool mayFace(std::uint32_t veil) const {
+    const std::uint32_t caster = volumes_.casterOf_[veil];
+    return caster == shadow::kNoTriangle || volumes_.silhouette_.side[caster] * volumes_.eyeSide_[caster] > 0;
   }
 
   static void add(const shadow::FilterSum& filter, int sign, shadow::FilterSum& sum) {
@@ -173,7 +192,7 @@ class TintedVolumes::Painting {
 
   [[nodiscard]] bool liesUpon(const shadow::Veil& a, const shadow::Veil& b, const Pixel& p) const {
     // Apart beyond doubt, and beyond any slope that matters.
-    if (double(b.depth) - double(a.depth) > 1024.0 * resolution_) return false;
+    if (double(b.depth) - double(a.depth) > 64.0 * resolution_) return false;
     const Vec3 ray = rays_.through(p.x + 0.5, p.y + 0.5), pixel(p.x + 0.5, p.y + 0.5, 1.0);
     const auto depth = [&](std::uint32_t t) {
       return 1.0 /
@@ -259,8 +278,8 @@ Result<shadow::LightMask> TintedVolumes::mask(const scene::Camera& camera, const
   if (auto done = sums_.find(request, field_); !done) return tl::unexpected(done.error());
   clock.end("volumes");
   const int width = camera.width, height = camera.height;
-  shadow::LightMask mask{
-      {width, height}, {width, height}, {width, height}, std::vector<shadow::Tint>(veils.veils.size())};
+  shadow::LightMask mask{image::GreyImage::unset(width, height), image::Image<shadow::Tint>::unset(width, height),
+                         image::GreyImage::unset(width, height), image::UnsetVector<shadow::Tint>(veils.veils.size())};
   auto done = parallel::forEach(layers_.rows, [&](int row) {
     Painting painting(*this, camera, light, veils, facing, mask);
     for (int column = 0; column < layers_.columns; ++column) painting.paintBlock(column, row);

@@ -116,7 +116,7 @@ Result<shadow::LightMask> TransparentRays::maskOf(const shadow::Frame& frame, co
                                                   const shadow::Shading& seen) const {
   const int width = frame.camera.width, height = frame.camera.height;
   shadow::LightMask mask{
-      {width, height}, {width, height}, {width, height}, std::vector<shadow::Tint>(seen.veils.veils.size())};
+      {width, height}, {width, height}, {width, height}, image::UnsetVector<shadow::Tint>(seen.veils.veils.size())};
   Reach reach(*rays_, frame.camera, light);
   const std::size_t most =
       frame.veilLayers ? static_cast<std::size_t>(std::max(0, *frame.veilLayers)) : ~std::size_t{0};
