@@ -237,7 +237,7 @@ class TintedVolumes::Painting {
     shadow::Tint tint = shadow::kFullTint;
   };
   std::array<Known, 64> known_;
-  shadow::Tint lastCoded_;
+  shadow::Tint lastCoded_{};
   std::uint8_t lastCode_ = 0;
 };
 
