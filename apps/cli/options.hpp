@@ -56,6 +56,8 @@ struct ViewOptions {
   shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
   std::optional<int> veilLayers;
   std::optional<double> seeThrough;
+  std::optional<Angle> smooth;  ///< the crease angle of smooth shading
+  bool hideTerminator = false;
   shadow::SoftSampling soft;
 };
 void addCameraOptions(CLI::App& app, ViewOptions& options);

@@ -34,6 +34,8 @@ std::vector<std::string> files(const RenderOptions& options, std::size_t lights)
 Result<void> checkFiles(const RenderOptions& options) {
   if (options.picture.empty() && options.mask.empty() && options.stats.empty())
     return fail(ErrorCode::usage, "nothing to write: give -o OUT.png, --mask MASK.png or --stats STATS.json");
+  if (options.view.hideTerminator && !options.view.smooth)
+    return fail(ErrorCode::usage, "--hide-terminator is about smooth shading: give --smooth CREASE_DEG");
   if (!options.show.empty() && options.picture.empty())
     return fail(ErrorCode::usage, "--show draws on the picture: give -o OUT.png");
   for (const auto& [option, path] : {std::pair("-o", options.picture), std::pair("--mask", options.mask)})
@@ -61,8 +63,12 @@ std::vector<Output> outputs(const RenderOptions& options, const image::RgbImage&
 /// The picture of one drawing.
 Result<image::RgbImage> paint(const RenderOptions& options, const View& view, const shadow::Geometry& geometry,
                               const Drawing& drawing) {
+  shadow::SmoothNormals smooth;
+  if (options.view.smooth) smooth = shadow::smoothNormals(geometry.surfaces, *options.view.smooth);
   auto picture = shadow::composite(view.scene, geometry.surfaces, view.camera, drawing.shading, view.lights,
-                                   {.ambient = options.view.ambient});
+                                   {.ambient = options.view.ambient,
+                                    .smooth = options.view.smooth ? &smooth : nullptr,
+                                    .hideTerminator = options.view.hideTerminator});
   if (options.show.empty()) return picture;
   return drawOver(picture, options.show, geometry, {view.camera, view.lights});
 }
@@ -149,6 +155,12 @@ Run addRender(CLI::App& app) {
   addGroundOption(app, options->view);
   addSilhouetteOption(app, options->view);
   addVeilOption(app, options->view);
+  addValue(app, "--smooth", "CREASE_DEG",
+           "Smooth shading across edges of at most so many degrees, for example 30 (default: flat)",
+           options->view.smooth, [](std::string_view word) { return parseDegrees(word, 0.0, 89.0); });
+  addFlag(app, "--hide-terminator",
+          "With --smooth: the border of a curved surface's own shadow does not show its facets; no mask changes",
+          options->view.hideTerminator);
   return [options](const Console& console) { return run(*options, console); };
 }
 

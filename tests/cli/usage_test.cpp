@@ -84,6 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
         render("SunOfHalfTheSky", {"--light", "sun:0,0,-1,180"}, "no extent"),
         render("SphereShort", {"--light", "sphere:0,0,5"}, "sphere:x,y,z,RADIUS"),
         render("AreaLightForHard", {"--light", "sphere:0,0,5,1", "--technique", "zpass_cpu"}, "soft_cpu"),
+        render("TerminatorOfFlatShading", {"--hide-terminator"}, "--smooth"), render("SmoothTooFar", {"--smooth", "120"}, "--smooth"),
         render("NoSamples", {"--samples", "0"}, "--samples"), render("HalfASample", {"--samples", "1.5"}, "--samples"),
         render("SoftErrorNegative", {"--soft-error", "-1"}, "--soft-error"),
         render("VeilLayersNegative", {"--veil-layers", "-1"}, "--veil-layers"),

@@ -48,11 +48,33 @@ std::vector<PreparedLight> prepare(std::span<const scene::Light> lights, const V
   return prepared;
 }
 
-// Light that falls on unit normal `n` at `point`, unshadowed.
-Vec3 received(const PreparedLight& light, const Vec3& point, const Vec3& n) {
+/// How a surface is turned where it is looked at.
+struct Facing {
+  Vec3 normal;            ///< unit, on the eye's side
+  bool isSmooth = false;  ///< `normal` is not that of the facet, and may point away from a light that the facet faces
+  double fade = 0.0;      ///< cosines to the light up to this are none
+};
+
+// Light that falls on a surface at `point`, unshadowed.
+Vec3 received(const PreparedLight& light, const Vec3& point, const Facing& facing) {
   const Vec3 direction = scene::towardsLight(light.homogeneous, point);
   const double length = glm::length(direction);
-  return length > 0.0 ? light.radiance * (std::abs(glm::dot(n, direction)) / length) : Vec3(0.0);
+  if (!(length > 0.0)) return Vec3(0.0);
+  const double cosine = glm::dot(facing.normal, direction) / length;
+  if (!facing.isSmooth) return light.radiance * std::abs(cosine);
+  return light.radiance * std::max(0.0, (cosine - facing.fade) / (1.0 - facing.fade));
+}
+
+// Where a point of a triangle's plane lies between its corners.
+Vec3 barycentric(const scene::Surfaces& surfaces, std::uint32_t triangle, const Vec3& point) {
+  const Vec3 normal = surfaces.normal(triangle);
+  const auto part = [&](int k) {
+    const Vec3 a = surfaces.corner(triangle, (k + 1) % 3), b = surfaces.corner(triangle, (k + 2) % 3);
+    return std::clamp(glm::dot(glm::cross(b - a, point - a), normal) / glm::dot(normal, normal), 0.0, 1.0);
+  };
+  const Vec3 parts(part(0), part(1), part(2));
+  const double sum = parts.x + parts.y + parts.z;
+  return sum > 0.0 ? parts / sum : Vec3(1.0 / 3.0);
 }
 
 Vec3 maskValue(const LightMask& mask, int x, int y) {
@@ -64,14 +86,14 @@ Vec3 maskValue(const LightMask& mask, int x, int y) {
 class Painter {
  public:
   Painter(const scene::Scene& scene, const scene::Surfaces& surfaces, const scene::Camera& camera,
-          std::span<const scene::Light> lights, double ambient)
+          std::span<const scene::Light> lights, const CompositeOptions& options)
       : scene_(scene),
         surfaces_(surfaces),
         lights_(prepare(lights, surfaces.origin)),
         rays_(scene::pixelRays(camera)),
         eye_(camera.eye - surfaces.origin),
         up_(scene::upVector(scene.up)),
-        ambient_(ambient) {}
+        options_(options) {}
 
   [[nodiscard]] Vec3 ray(int x, int y) const { return rays_.through(x + 0.5, y + 0.5); }
   void turnTo(std::uint32_t triangle, Face& face) const {
@@ -81,21 +103,34 @@ class Painter {
   /// Linear; `reach(i)`: what of light i gets there.
   template <class Reach>
   [[nodiscard]] Vec3 colour(const Face& face, const Vec3& ray, float depth, const Reach& reach) const {
-    const Vec3 n = glm::dot(face.normal, ray) > 0.0 ? -face.normal : face.normal;
+    const double side = glm::dot(face.normal, ray) > 0.0 ? -1.0 : 1.0;
     const Vec3 point = eye_ + double(depth) * ray;
-    Vec3 light(skyLight(ambient_, n, up_));
+    const Facing facing = options_.smooth != nullptr ? smoothFacing(face.triangle, point, side) : Facing{side * face.normal};
+    Vec3 light(skyLight(options_.ambient, facing.normal, up_));
     for (std::size_t i = 0; i < lights_.size(); ++i)
-      if (const Vec3 m = reach(i); m != Vec3(0.0)) light += m * received(lights_[i], point, n);
+      if (const Vec3 m = reach(i); m != Vec3(0.0)) light += m * received(lights_[i], point, facing);
     return face.material->colour * light;
   }
 
  private:
+  [[nodiscard]] Facing smoothFacing(std::uint32_t triangle, const Vec3& point, double side) const {
+    const auto& corners = options_.smooth->corners[triangle];
+    const Vec3 parts = barycentric(surfaces_, triangle, point);
+    Vec3 normal(0.0);
+    double slack = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      normal += parts[k] * Vec3(corners[static_cast<std::size_t>(k)].normal);
+      slack += parts[k] * double(corners[static_cast<std::size_t>(k)].slack);
+    }
+    return {side * glm::normalize(normal), true, options_.hideTerminator ? std::min(0.5, slack) : 0.0};
+  }
+
   const scene::Scene& scene_;
   const scene::Surfaces& surfaces_;
   std::vector<PreparedLight> lights_;
   scene::PixelRays rays_;
   Vec3 eye_, up_;
-  double ambient_;
+  const CompositeOptions& options_;
 };
 
 // The veils of a pixel, the farthest first, each over what is behind it.
@@ -115,7 +150,7 @@ image::RgbImage paint(const scene::Scene& scene, const scene::Surfaces& surfaces
                       std::span<const LightMask> masks, const CompositeOptions& options) {
   UMBRAGE_CHECK(lights.size() == masks.size(), "one mask a light");
   UMBRAGE_CHECK(seen.triangle.width() == camera.width && seen.triangle.height() == camera.height, "picture size");
-  const Painter painter(scene, surfaces, camera, lights, options.ambient);
+  const Painter painter(scene, surfaces, camera, lights, options);
   const auto code = [](double srgb) { return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(srgb, 0.0, 1.0))); };
   const image::Rgb8 background{code(options.background.x), code(options.background.y), code(options.background.z)};
   const Vec3 far(decodeSrgb(background.r), decodeSrgb(background.g), decodeSrgb(background.b));

@@ -7,6 +7,7 @@
 #include "umbrage/scene/scene.hpp"
 #include "umbrage/scene/surfaces.hpp"
 #include "umbrage/shadow/light_mask.hpp"
+#include "umbrage/shadow/smooth_normals.hpp"
 #include "umbrage/shadow/surface_buffer.hpp"
 #include "umbrage/shadow/technique.hpp"
 
@@ -15,6 +16,11 @@ namespace umbrage::shadow {
 struct CompositeOptions {
   double ambient = 0.25;                    ///< light from everywhere, before the lights
   Vec3 background{0.93, 0.95, 0.97};        ///< sRGB, where no surface is
+  const SmoothNormals* smooth = nullptr;    ///< of the surfaces; null: flat shading
+  /// With `smooth`: light that falls flatter than the facets of a curved surface can tell fades out, so that the border of the surface's own shadow
+  /// does not show its facets. No mask changes, so shadows of other things, and where things touch, stay where they are.
+  /// Source: compare M. Chiang, Y. K. Li and B. Burley, Taming the shadow terminator, 2019.
+  bool hideTerminator = false;
 };
 
 /// Share of the ambient light that comes from everywhere alike; the rest comes from above, so that faces in shadow still
