@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -15,19 +16,28 @@ namespace {
 constexpr double kSunAzimuth = 160.0;
 constexpr double kSunElevation = 40.0;
 
-// Surface and depth, masks and their pictures, with room for what a technique keeps beside them.
+// Surface and depth, masks and their pictures, with room for what a technique keeps beside them. Masks of coloured light are larger, and soft
+// ones are made of sixteen at once.
 constexpr double kBytesPerPixel = 24.0;
-constexpr double kBytesPerPixelAndLight = 4.0;
+constexpr double kMask = 4.0, kTintedMask = 12.0, kMean = 32.0;
+constexpr double kMasksAtOnce = 16.0;
 constexpr double kMemory = 2.0 * 1024 * 1024 * 1024;
 
-Result<void> checkMemory(const Size& size, std::size_t lights) {
-  const double bytes =
-      double(size.width) * double(size.height) * (kBytesPerPixel + kBytesPerPixelAndLight * double(lights));
+Result<void> checkMemory(const Size& size, const std::vector<scene::Light>& lights, bool tinted) {
+  const double mask = tinted ? kTintedMask : kMask;
+  const bool soft = std::ranges::any_of(lights, scene::isArea);
+  const double perPixel = kBytesPerPixel + mask * double(lights.size()) + (soft ? kMasksAtOnce * mask + kMean : 0.0);
+  const double bytes = double(size.width) * double(size.height) * perPixel;
   if (bytes <= kMemory) return {};
   return fail(ErrorCode::usage,
               fmt::format("--size: {} x {} samples with {} lights need {:.1f} GiB; choose a smaller --size, a smaller "
                           "--antialias or fewer lights",
-                          size.width, size.height, lights, bytes / (1024.0 * 1024.0 * 1024.0)));
+                          size.width, size.height, lights.size(), bytes / (1024.0 * 1024.0 * 1024.0)));
+}
+
+bool isTinted(const scene::Scene& scene) {
+  return std::ranges::any_of(scene.materials,
+                             [](const scene::Material& m) { return scene::transmittance(m) != Vec3(0.0); });
 }
 
 scene::Light defaultSun(scene::UpAxis up, Angle north) {
@@ -95,7 +105,7 @@ Result<View> makeView(scene::Scene scene, const ViewOptions& options) {
         fmt::format("no light given: a sun at azimuth {:.0f}, {:.0f} degrees high", kSunAzimuth, kSunElevation);
   }
   const Size drawn{options.size.width * options.antialias, options.size.height * options.antialias};
-  if (const auto fits = checkMemory(drawn, view.lights.size()); !fits) return tl::unexpected(fits.error());
+  if (const auto fits = checkMemory(drawn, view.lights, isTinted(scene)); !fits) return tl::unexpected(fits.error());
   view.scene = options.ground ? scene::withGround(std::move(scene), options.ground->height) : std::move(scene);
   return view;
 }

@@ -119,12 +119,15 @@ TEST(Gltf, whatLetsLightThrough) {
       loaded(gltf(buffer(cubeBytes()) + kCubeViews + R"("extensionsUsed":["KHR_materials_transmission"],"materials":[
     {"name":"clear","alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[0.2,0.4,0.6,0]}},
     {"name":"tinted","pbrMetallicRoughness":{"baseColorFactor":[0.5,1,0.25,1]},"extensions":{"KHR_materials_transmission":{"transmissionFactor":0.8}}},
+    {"name":"beyond","pbrMetallicRoughness":{"baseColorFactor":[1.0000001,-1,0.5,1]},"extensions":{"KHR_materials_transmission":{"transmissionFactor":1}}},
     {"name":"odd","extensions":{"KHR_materials_transmission":{"transmissionFactor":"much"}}}],
     "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],"nodes":[{"mesh":0}])"));
   EXPECT_EQ(scene::transmittance(scene.materials.at(0)), Vec3(1.0));
   EXPECT_LT(glm::length(scene::transmittance(scene.materials.at(1)) - 0.8 * Vec3(0.5, 1, 0.25)), 1e-12);
   EXPECT_NEAR(scene.materials.at(1).opacity, 0.2, 1e-12);
-  EXPECT_EQ(scene.materials.at(2).opacity, 1.0);
+  EXPECT_EQ(scene::transmittance(scene.materials.at(2)), Vec3(1, 0, 0.5));
+  EXPECT_EQ(scene.materials.at(3).opacity, 1.0);
+  EXPECT_TRUE(scene.warnings.empty());
 }
 
 scene::Scene withMode(int mode, const std::vector<float>& points) {

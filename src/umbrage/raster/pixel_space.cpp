@@ -17,11 +17,15 @@ std::uint8_t outcode(const Vec3& p, double width, double height) {
 
 }  // namespace
 
-PixelSpace pixelSpace(const scene::Camera& camera, const Vec3& origin, double radius) {
+PixelSpace pixelSpace(const scene::Camera& camera, const Vec3& origin, double radius,
+                      std::span<const Vec3f> positions) {
   const scene::PixelRays rays = scene::pixelRays(camera);
   const double reach = std::max(radius, glm::length(camera.eye - origin));
   PixelSpace space;
   space.eye = camera.eye - origin;
+  const Vec3 eye = space.eye;
+  if (std::ranges::any_of(positions, [&](const Vec3f& p) { return Vec3(p) == eye; }))
+    space.eye += 0x1p-40 * reach * Vec3(0.3617, 0.4771, 0.8009);
   space.width = camera.width, space.height = camera.height;
   space.scale = reach > 0.0 ? std::exp2(-std::ceil(std::log2(reach))) : 1.0;
   space.fromScene = space.scale * glm::inverse(Mat3(rays.dx, rays.dy, rays.corner));

@@ -28,7 +28,9 @@ struct PixelSpace {
 };
 
 /// `origin`: that of what will be mapped. `radius`: of the scene, in scene units, for the scale.
-[[nodiscard]] PixelSpace pixelSpace(const scene::Camera& camera, const Vec3& origin, double radius);
+/// `positions`: those that will be mapped. An eye exactly in one of them, from where that has no direction, is moved by 2^-40 of the scene.
+[[nodiscard]] PixelSpace pixelSpace(const scene::Camera& camera, const Vec3& origin, double radius,
+                                    std::span<const Vec3f> positions = {});
 
 /// The positions of a scene for one camera.
 struct SeenPositions {

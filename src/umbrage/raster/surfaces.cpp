@@ -124,14 +124,14 @@ Shown makeSurfacePatch(const PixelSpace& space, const SeenPositions& positions, 
   return Shown::yes;
 }
 
-SurfaceRaster::SurfaceRaster(const shadow::Geometry& geometry, Drawn drawn) : geometry_(geometry) {
+SurfaceRaster::SurfaceRaster(const shadow::Geometry& geometry, Drawn drawn) : geometry_(geometry), drawn_(drawn) {
   if (drawn == Drawn::opaque) veiled_ = shadow::veiledComponents(geometry.casters, geometry.filters);
 }
 
 // Averted faces of a convex solid hide behind its others; behind a veil they are seen.
 void SurfaceRaster::findAverted(const Vec3& eye) {
   averted_ = shadow::avertedFaces(geometry_, eye);
-  if (veiled_.empty() || geometry_.filters.empty()) return;
+  if (drawn_ == Drawn::all || geometry_.filters.empty()) return;
   const shadow::CasterSet& casters = geometry_.casters;
   for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
     if (veiled_[casters.componentOf[t]] != 0) averted_[casters.surfaceTriangle[t]] = 0;

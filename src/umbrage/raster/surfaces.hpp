@@ -41,6 +41,7 @@ class SurfaceRaster {
   [[nodiscard]] bool make(const PixelSpace& space, const SeenPositions& positions, std::uint32_t triangle, Patch& out);
   void findAverted(const Vec3& eye);
   const shadow::Geometry& geometry_;
+  Drawn drawn_;
   std::vector<std::uint8_t> veiled_;  ///< per component, where veils are left out
   std::vector<std::uint8_t> averted_;
   std::mutex edgeOnMutex_;

@@ -7,7 +7,7 @@ namespace umbrage::shadow {
 namespace {
 
 constexpr double kDarkest = 0x1p-14;
-constexpr double kMostSurfaces = 1000.0;
+constexpr double kMostSurfaces = 4000.0;
 constexpr double kFinest = 0x1p24;
 
 bool isVeil(const scene::Material& material) {

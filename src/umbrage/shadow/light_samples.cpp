@@ -126,7 +126,12 @@ double LightSample::weight(const Vec3& point) const {
   const Vec3 toCentre = ball->centre - point, toSample = std::get<scene::PointLight>(light.shape).position - point;
   const double square = glm::dot(toCentre, toCentre), along = glm::dot(toCentre, toSample);
   const double passing = square - along * along / glm::dot(toSample, toSample);
-  return square / (square + ball->radius * ball->radius / 2 - 1.5 * std::max(0.0, passing));
+  // Upon the ball single points would outweigh all others, and inside there is no disc.
+  constexpr double kMost = 4.0;
+  const double radius = ball->radius;
+  if (square <= radius * radius) return 1.0;
+  return std::min(kMost,
+                  square / (square + radius * radius / 2 - 1.5 * std::min(std::max(0.0, passing), radius * radius)));
 }
 
 std::vector<LightSample> lightSamples(const scene::Light& light, std::size_t first, std::size_t count,

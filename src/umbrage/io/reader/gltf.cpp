@@ -111,8 +111,8 @@ scene::Material materialOf(const tinygltf::Material& given, std::size_t index) {
   m.name = given.name.empty() ? "material " + std::to_string(index) : given.name;
   const auto& factor = given.pbrMetallicRoughness.baseColorFactor;
   if (factor.size() != 4) return m;
-  m.colour = {factor[0], factor[1], factor[2]};
-  if (given.alphaMode == "BLEND") m.opacity = factor[3];
+  m.colour = glm::clamp(Vec3(factor[0], factor[1], factor[2]), 0.0, 1.0);
+  if (given.alphaMode == "BLEND") m.opacity = std::clamp(factor[3], 0.0, 1.0);
   if (given.alphaMode == "MASK") m.opacity = factor[3] >= given.alphaCutoff ? 1.0 : 0.0;
   if (m.opacity == 0.0) return m;
   if (const double transmission = transmissionOf(given); transmission > 0.0) {
@@ -297,8 +297,10 @@ Result<void> GltfReader::addPrimitive(const tinygltf::Primitive& primitive, mesh
 
 void GltfReader::noteUnread() {
   for (const std::string& extension : model_.extensionsUsed)
-    if (extension == "KHR_materials_transmission" || extension == "KHR_lights_punctual")
-      complaints_.add(extension + " is not read");
+    if (extension == "KHR_lights_punctual") complaints_.add(extension + " is not read");
+  for (const tinygltf::Material& material : model_.materials)
+    if (material.alphaMode != "OPAQUE" && material.pbrMetallicRoughness.baseColorTexture.index >= 0)
+      complaints_.add("what textures let through is not read: materials do so as a whole");
   if (!model_.animations.empty()) complaints_.add("animations are not read");
 }
 

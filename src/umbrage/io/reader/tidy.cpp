@@ -70,6 +70,8 @@ void tidyMaterials(scene::Scene& s) {
   for (scene::Material& m : s.materials) {
     for (int k = 0; k < 3; ++k) m.colour[k] = std::isfinite(m.colour[k]) ? std::clamp(m.colour[k], 0.0, 1.0) : 0.8;
     m.opacity = std::isfinite(m.opacity) ? std::clamp(m.opacity, 0.0, 1.0) : 1.0;
+    for (int k = 0; m.filter && k < 3; ++k)
+      (*m.filter)[k] = std::isfinite((*m.filter)[k]) ? std::clamp((*m.filter)[k], 0.0, 1.0) : 0.0;
     if (m.opacity == 0.0 && !m.filter) m.filter = Vec3(1.0);  // nothing is there; what is seen of its colour is nothing too
   }
 }

@@ -22,7 +22,7 @@ CpuVolumes::CpuVolumes(std::shared_ptr<const shadow::Geometry> geometry)
 
 Result<void> CpuVolumes::see(const scene::Camera& camera) {
   const scene::Surfaces& surfaces = geometry_->surfaces;
-  space_ = raster::pixelSpace(camera, surfaces.origin, surfaces.bounds.radius());
+  space_ = raster::pixelSpace(camera, surfaces.origin, surfaces.bounds.radius(), surfaces.positions);
   if (auto done = raster::mapPositions(space_, surfaces.positions, positions_); !done) return done;
   if (auto done = surfaces_.draw(space_, positions_, seen_); !done) return done;
   invisible_.clear();

@@ -31,7 +31,7 @@ TintedVolumes::TintedVolumes(std::shared_ptr<const shadow::Geometry> geometry)
 Result<void> TintedVolumes::see(const scene::Camera& camera, std::optional<int> veilLayers, shadow::VeilBuffer& veils) {
   const scene::Surfaces& surfaces = geometry_->surfaces;
   litLayers_ = veilLayers ? static_cast<std::size_t>(std::max(0, *veilLayers)) : ~std::size_t{0};
-  space_ = raster::pixelSpace(camera, surfaces.origin, surfaces.bounds.radius());
+  space_ = raster::pixelSpace(camera, surfaces.origin, surfaces.bounds.radius(), surfaces.positions);
   if (auto done = raster::mapPositions(space_, surfaces.positions, positions_); !done) return done;
   if (auto done = surfaces_.draw(space_, positions_, seen_); !done) return done;
   if (auto done = veils_.draw(space_, positions_, seen_, veils); !done) return done;
@@ -203,7 +203,9 @@ class TintedVolumes::Painting {
   }
 
   [[nodiscard]] shadow::Tint remaining(const shadow::FilterSum& taken) {
-    const auto mixed = static_cast<std::uint32_t>(taken[0] * 3 + taken[1] * 5 + taken[2] * 7) * 0x9E3779B1u;
+    const auto mixed = (static_cast<std::uint32_t>(taken[0]) * 3u + static_cast<std::uint32_t>(taken[1]) * 5u +
+                        static_cast<std::uint32_t>(taken[2]) * 7u) *
+                       0x9E3779B1u;
     Known& known = known_[mixed >> 26];
     if (known.taken != taken) known = {taken, shadow::tintOf(volumes_.geometry_->filters.transmitted(taken))};
     return known.tint;

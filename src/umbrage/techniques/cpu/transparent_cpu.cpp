@@ -1,5 +1,6 @@
 #include "umbrage/techniques/cpu/detail/transparent_cpu.hpp"
 
+#include <new>
 #include <optional>
 
 #include "umbrage/techniques/cpu/detail/tinted_volumes.hpp"
@@ -19,6 +20,17 @@ class TransparentCpu final : public shadow::Technique {
 
   Result<shadow::Shading> shade(const shadow::Frame& frame) override {
     UMBRAGE_CHECK(volumes_.has_value(), "shade() before prepare()");
+    try {
+      return shadeAll(frame);
+    } catch (const std::bad_alloc&) {
+      return fail(ErrorCode::device,
+                  "not enough memory for so many transparent surfaces behind each other; choose a smaller picture or "
+                  "fewer --veil-layers");
+    }
+  }
+
+ private:
+  Result<shadow::Shading> shadeAll(const shadow::Frame& frame) {
     shadow::Shading out;
     shadow::PhaseClock clock(out.stats.phases);
     if (auto done = volumes_->see(frame.camera, frame.veilLayers, out.veils); !done)
@@ -36,7 +48,6 @@ class TransparentCpu final : public shadow::Technique {
     return out;
   }
 
- private:
   shadow::Traits traits_;
   std::optional<TintedVolumes> volumes_;
 };

@@ -75,27 +75,6 @@ scene::Scene soup(std::size_t count, double size, unsigned seed) {
   return b.scene;
 }
 
-TEST(Transparent, PanesTakeTheirShareEach) {
-  for (const double t : {0.02, 0.1, 0.5, 0.9, 0.98}) {
-    for (const int n : {1, 2, 3, 7, 16, 64}) {
-      Builder b;
-      const auto ground = b.material(Vec3(0.8), 1.0), pane = b.material(Vec3(1.0), 1.0 - t);
-      b.quad({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, ground);
-      for (int i = 0; i < n; ++i) b.quad({0, 0, 1 + 0.05 * i}, {2, 0, 0}, {0, 2, 0}, pane);
-      for (const Vec3& eye :
-           {Vec3(-6, -5, 0.7), Vec3(-2, -3, 12), Vec3(0.3, 0.2, 1.52)}) {  // beside, above and among them
-        const auto camera = cameraAt(eye, {0.1, 0.05, 0}, 64, 48);
-        for (const char* name : {"transparent_cpu", "transparent_rays"}) {
-          const auto shading = shade(name, b.scene, camera, {Light{scene::PointLight{{0.4, 0.3, 30}}}});
-          // The middle of the picture shows the ground below the panes.
-          EXPECT_NEAR(shadow::partsOf(shading.masks[0].tint(32, 24)).x, std::pow(t, n), 1e-4)
-              << name << " " << t << " " << n << " " << eye.z;
-        }
-      }
-    }
-  }
-}
-
 struct Compared {
   std::size_t surfaces = 0, off = 0, otherVeils = 0, pixels = 0;
 };
@@ -126,6 +105,27 @@ Compared compare(const shadow::Shading& a, const shadow::Shading& truth) {
     }
   }
   return out;
+}
+
+TEST(Transparent, PanesTakeTheirShareEach) {
+  for (const double t : {0.02, 0.1, 0.5, 0.9, 0.98}) {
+    for (const int n : {1, 2, 3, 7, 16, 64}) {
+      Builder b;
+      const auto ground = b.material(Vec3(0.8), 1.0), pane = b.material(Vec3(1.0), 1.0 - t);
+      b.quad({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, ground);
+      for (int i = 0; i < n; ++i) b.quad({0, 0, 1 + 0.05 * i}, {2, 0, 0}, {0, 2, 0}, pane);
+      for (const Vec3& eye :
+           {Vec3(-6, -5, 0.7), Vec3(-2, -3, 12), Vec3(0.3, 0.2, 1.52)}) {  // beside, above and among them
+        const auto camera = cameraAt(eye, {0.1, 0.05, 0}, 64, 48);
+        for (const char* name : {"transparent_cpu", "transparent_rays"}) {
+          const auto shading = shade(name, b.scene, camera, {Light{scene::PointLight{{0.4, 0.3, 30}}}});
+          // The middle of the picture shows the ground below the panes.
+          EXPECT_NEAR(shadow::partsOf(shading.masks[0].tint(32, 24)).x, std::pow(t, n), 1e-4)
+              << name << " " << t << " " << n << " " << eye.z;
+        }
+      }
+    }
+  }
 }
 
 TEST(Transparent, HundredsOfPanesAddUp) {
@@ -177,6 +177,48 @@ TEST(Transparent, FewerLayersAreTheFirstOfAll) {
       for (std::size_t k = 0; k < std::min<std::size_t>(all.veils.at(i).size(), std::size_t(layers)); ++k)
         ASSERT_EQ(some.masks[0].veils[all.veils.first[i] + k], all.masks[0].veils[all.veils.first[i] + k]);
   }
+}
+
+TEST(Transparent, TheGreyMaskIsTheLuminanceOfTheTint) {
+  const std::vector<Light> lights{{scene::PointLight{{3, -2, 6}}}, {scene::DirectionalLight{{0.4, 0.3, -1}}}};
+  const auto camera = cameraAt({-7, -6, 4}, {0.2, 0.1, -0.3});
+  for (const char* name : {"transparent_cpu", "transparent_rays"}) {
+    const auto shading = shade(name, soup(300, 1.5, 7), camera, lights);
+    for (const shadow::LightMask& mask : shading.masks)
+      for (std::size_t i = 0; i < mask.light.size(); ++i)
+        ASSERT_EQ(mask.light.pixels()[i], shadow::luminanceCode(mask.tint.pixels()[i])) << name;
+  }
+}
+
+TEST(Transparent, VeilsThatCastNothingAreSeenThrough) {
+  Builder b;
+  const auto ground = b.material(Vec3(0.8), 1.0), pane = b.material(Vec3(1.0, 0.2, 0.2), 0.5);
+  b.quad({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, ground);
+  b.quad({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, pane);
+  for (scene::Instance& instance : b.scene.instances) instance.casts = false;
+  const std::vector<Light> lights{{scene::PointLight{{0.4, 0.3, 9}}}};
+  const auto camera = cameraAt({-2, -3, 5}, {0.1, 0.05, 0});
+  const auto mine = shade("transparent_cpu", b.scene, camera, lights),
+             truth = shade("transparent_rays", b.scene, camera, lights);
+  EXPECT_EQ(mine.surface.triangle, truth.surface.triangle);
+  EXPECT_GT(mine.veils.veils.size(), 100u);
+  EXPECT_EQ(mine.veils.veils.size(), truth.veils.veils.size());
+}
+
+// From there the corner has no direction.
+TEST(Transparent, AnEyeInACornerSeesTheRest) {
+  Builder b;
+  const auto ground = b.material(Vec3(0.8), 1.0), pane = b.material(Vec3(0.5, 1.0, 0.2), 0.4);
+  b.quad({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, ground);
+  b.quad({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, pane);
+  b.quad({0.3, 0.2, 0.5}, {0.4, 0, 0}, {0, 0.4, 0}, ground);
+  const std::vector<Light> lights{{scene::PointLight{{0.4, 0.3, 9}}}};
+  const auto camera = cameraAt({1, 1, 1}, {0.01, 0.5, -0.3});
+  const auto truth = shade("transparent_rays", b.scene, camera, lights);
+  EXPECT_EQ(compare(shade("transparent_cpu", b.scene, camera, lights), truth).off, 0u);
+  for (scene::Material& material : b.scene.materials) material.opacity = 1.0;
+  const auto opaque = shade("zpass_cpu", b.scene, camera, lights), rays = shade("ray_traced", b.scene, camera, lights);
+  EXPECT_LT(shadow::compare(opaque.masks[0], rays.masks[0], shadow::edgePixels(rays.masks[0])).farFromEdge, 3u);
 }
 
 TEST(Transparent, SoupsAreAsRaysSeeThem) {
