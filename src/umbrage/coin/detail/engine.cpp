@@ -1,10 +1,10 @@
 #include "umbrage/coin/detail/engine.hpp"
 
+#include <Inventor/C/glue/gl.h>
 #include <Inventor/actions/SoGLRenderAction.h>
 #include <Inventor/caches/SoGLRenderCache.h>
 #include <Inventor/elements/SoCacheElement.h>
 #include <Inventor/elements/SoGLCacheContextElement.h>
-#include <Inventor/elements/SoGLLightIdElement.h>
 #include <Inventor/elements/SoModelMatrixElement.h>
 #include <Inventor/elements/SoProjectionMatrixElement.h>
 #include <Inventor/elements/SoShapeStyleElement.h>
@@ -60,6 +60,12 @@ class ManyPasses {
   }
   SoState* state_;
 };
+
+// How many lights OpenGL has at once. Coin's element of that name complains about being asked.
+std::size_t lightLimit(const SoGLRenderAction& action) {
+  const int most = cc_glglue_get_max_lights(cc_glglue_instance(static_cast<int>(action.getCacheContext())));
+  return static_cast<std::size_t>(std::max(1, most));
+}
 
 void drawPass(SoGLRenderAction* action, const Engine::Draw& draw, Delayed delayed) {
   SoState* state = action->getState();
@@ -157,9 +163,9 @@ Result<void> Engine::drawShadowed(SoGLRenderAction* action, const Settings& sett
   phases_.clear();
   shadow::PhaseClock clock(phases_);
   const ManyPasses passes(state, ownCacheContext(static_cast<std::uint32_t>(action->getCacheContext())));
-  const Scan scan = extractor_.scan({action->getCurPath(), SoViewportRegionElement::get(state), &registry_,
-                                     !gl::currentIsEgl(), SoShapeStyleElement::getTransparencyType(state),
-                                     static_cast<std::size_t>(SoGLLightIdElement::getMaxGLSources())});
+  const Scan scan =
+      extractor_.scan({action->getCurPath(), SoViewportRegionElement::get(state), &registry_, !gl::currentIsEgl(),
+                       SoShapeStyleElement::getTransparencyType(state), lightLimit(*action)});
   work_.extractions = extractor_.extractions();
   clock.end("scene");
   ++work_.frames;
