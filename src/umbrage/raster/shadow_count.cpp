@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "umbrage/raster/side_blocks.hpp"
 #include "umbrage/raster/sides.hpp"
 
 namespace umbrage::raster {
@@ -27,36 +28,6 @@ UMBRAGE_IN_BLOCKS bool countInBlock(const BlockPatch& p, const Span& rows, std::
   return anyOf(unsure);
 }
 
-// One of its functions at one pixel, rounded as countInBlock does.
-float valueAt(const BlockPatch& p, const Span& rows, int k, int x, int y) {
-  float value = (p.at[k] + p.dy[k] * static_cast<float>(rows.begin)) + p.dx[k] * static_cast<float>(x);
-  for (int row = rows.begin; row < y; ++row) value += p.dy[k];
-  return value;
-}
-
-// Adds the weight where the patch covers whole blocks, nearer than all they show, of eight beside each other. Bit k: of block k a part may be
-// covered.
-UMBRAGE_IN_BLOCKS std::uint32_t countBlocks(const BlockPatch& p, std::int32_t weight, const float* farthest,
-                                            const float* nearest, std::int32_t* whole) {
-  const Float8 lane{0, 1, 2, 3, 4, 5, 6, 7};
-  Float8 low, high;
-  __builtin_memcpy(&low, farthest, sizeof low), __builtin_memcpy(&high, nearest, sizeof high);
-  const Float8 plane = p.at[3] + (kBlock * p.dx[3]) * lane;
-  Int8 touched = plane + (p.above[3] + p.doubt[3]) >= low * p.distance;
-  Int8 covered = plane + (p.below[3] - p.doubt[3]) > high * (p.distance * (1.0f + 0x1p-20f));
-  for (int k = 0; k < 3; ++k) {
-    const Float8 edge = p.at[k] + (kBlock * p.dx[k]) * lane;
-    touched &= edge + p.above[k] >= -p.doubt[k];
-    covered &= edge + p.below[k] > p.doubt[k];
-  }
-  covered &= touched;
-  Int8 sum;
-  __builtin_memcpy(&sum, whole, sizeof sum);
-  sum += covered & weight;
-  __builtin_memcpy(whole, &sum, sizeof sum);
-  return bitsOf(touched & ~covered);
-}
-
 // One thread's work on a band.
 class BandCounting {
  public:
@@ -73,14 +44,9 @@ class BandCounting {
   }
 
   UMBRAGE_IN_BLOCKS void add(const Patch& patch, std::uint64_t tiles) {
-    const int begin = std::max(first_, patch.y0 / kBlock), end = std::min(last_, (patch.y1 + kBlock - 1) / kBlock);
-    for (int row = begin; row < end; ++row) {
-      const float farthest = depths_.farthestOfRow(row);
-      if (farthest >= ReceiverDepths::kNothing) continue;
-      const Span columns = columnsOf(patch, row, row + 1, double(farthest) * (1.0 - 0x1p-20));
-      for (int column = columns.begin & ~(kTileBlocks - 1); column < columns.end; column += kTileBlocks)
-        if ((tiles >> std::min(63, column / kTileBlocks) & 1u) != 0) addInEight(patch, column, row);
-    }
+    forEachEight(
+        depths_, patch, tiles, first_,
+        last_, [&](int column, int row) __attribute__((always_inline)) { addInEight(patch, column, row); });
   }
 
   // Adds what was counted for whole blocks.
@@ -103,9 +69,10 @@ class BandCounting {
     const Span rows = rowsOf(patch, row);
     const auto k = static_cast<std::size_t>(column);
     const float* nearest = depths_.nearest(row) + k;
-    std::uint32_t parts = countBlocks(p, patch.weight, depths_.farthest(row) + k, nearest, &whole_[local(column, row)]);
-    for (int at = 0; parts != 0; parts &= parts - 1) {
-      const int further = std::countr_zero(parts);
+    EightBlocks eight = lookAtEight(p, depths_.farthest(row) + k, nearest);
+    addWhere(eight.covered, patch.weight, &whole_[local(column, row)]);
+    for (int at = 0; eight.touched != 0; eight.touched &= eight.touched - 1) {
+      const int further = std::countr_zero(eight.touched);
       if (column + further >= out_.columns) return;
       moveOn(p, further - at);
       at = further;
@@ -133,16 +100,9 @@ class BandCounting {
       }
       const int px = kBlock * column + x, py = kBlock * row + y;
       if (maybe && !sure && patch.covers(corners_, px, py) &&
-          isBefore(patch, request_.seen.triangle.blocks[i].pixel[k], px, py))
+          isBefore(corners_, patch, request_.triangles[request_.seen.triangle.blocks[i].pixel[k]], px, py))
         out_.blocks[i].pixel[k] += patch.weight;
     }
-  }
-
-  // Whether a patch is nearer than the triangle seen at a pixel, in double precision.
-  [[nodiscard]] bool isBefore(const Patch& patch, std::uint32_t triangle, int px, int py) const {
-    const Vec3 pixel(px + 0.5, py + 0.5, 1.0);
-    const double nearness = nearnessOf(corners_.mapped, request_.triangles[triangle], pixel);
-    return patch.at(3, pixel.x, pixel.y) > nearness * patch.distance;
   }
 
   const ShadowCount::Request& request_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "umbrage/raster/side_blocks.hpp"
 #include "umbrage/raster/sides.hpp"
 
 namespace umbrage::raster {
@@ -83,34 +84,6 @@ UMBRAGE_IN_BLOCKS bool sumInBlock(const BlockPatch& p, const Span& rows, const W
   return anyOf(unsure);
 }
 
-// One of its functions at one pixel, rounded as sumInBlock does.
-float valueAt(const BlockPatch& p, const Span& rows, int k, int x, int y) {
-  float value = (p.at[k] + p.dy[k] * static_cast<float>(rows.begin)) + p.dx[k] * static_cast<float>(x);
-  for (int row = rows.begin; row < y; ++row) value += p.dy[k];
-  return value;
-}
-
-struct Parts {
-  Int8 covered;           ///< lanes of blocks that are covered wholly, before all that they show
-  std::uint32_t touched;  ///< blocks of which a part may be covered, a bit each
-};
-
-UMBRAGE_IN_BLOCKS Parts lookAtEight(const BlockPatch& p, const float* farthest, const float* nearest) {
-  const Float8 lane{0, 1, 2, 3, 4, 5, 6, 7};
-  Float8 low, high;
-  __builtin_memcpy(&low, farthest, sizeof low), __builtin_memcpy(&high, nearest, sizeof high);
-  const Float8 plane = p.at[3] + (kBlock * p.dx[3]) * lane;
-  Int8 touched = plane + (p.above[3] + p.doubt[3]) >= low * p.distance;
-  Int8 covered = plane + (p.below[3] - p.doubt[3]) > high * (p.distance * (1.0f + 0x1p-20f));
-  for (int k = 0; k < 3; ++k) {
-    const Float8 edge = p.at[k] + (kBlock * p.dx[k]) * lane;
-    touched &= edge + p.above[k] >= -p.doubt[k];
-    covered &= edge + p.below[k] > p.doubt[k];
-  }
-  covered &= touched;
-  return {covered, bitsOf(touched & ~covered)};
-}
-
 /// One thread's work on a band.
 class BandSums {
  public:
@@ -127,14 +100,10 @@ class BandSums {
 
   template <std::size_t kUsed>
   UMBRAGE_IN_BLOCKS void add(const Patch& patch, const Weight& weight, std::uint64_t tiles) {
-    const int begin = std::max(first_, patch.y0 / kBlock), end = std::min(last_, (patch.y1 + kBlock - 1) / kBlock);
-    for (int row = begin; row < end; ++row) {
-      const float farthest = depths_.farthestOfRow(row);
-      if (farthest >= ReceiverDepths::kNothing) continue;
-      const Span columns = columnsOf(patch, row, row + 1, double(farthest) * (1.0 - 0x1p-20));
-      for (int column = columns.begin & ~(kTileBlocks - 1); column < columns.end; column += kTileBlocks)
-        if ((tiles >> std::min(63, column / kTileBlocks) & 1u) != 0) addInEight<kUsed>(patch, weight, column, row);
-    }
+    forEachEight(
+        depths_, patch, tiles, first_, last_, [&](int column, int row) __attribute__((always_inline)) {
+          addInEight<kUsed>(patch, weight, column, row);
+        });
   }
 
   // Tells what was summed up for whole blocks, and what is there at the eye.
@@ -170,16 +139,11 @@ class BandSums {
     const Span rows = rowsOf(patch, row);
     const auto k = static_cast<std::size_t>(column);
     const float* nearest = depths_.nearest(row) + k;
-    Parts parts = lookAtEight(p, depths_.farthest(row) + k, nearest);
-    for (std::size_t c = 0; c < kUsed; ++c) {
-      std::int32_t* whole = &whole_[weight.used[c]][local(column, row)];
-      Int8 sum;
-      __builtin_memcpy(&sum, whole, sizeof sum);
-      sum += parts.covered & weight.of[weight.used[c]];
-      __builtin_memcpy(whole, &sum, sizeof sum);
-    }
-    for (int at = 0; parts.touched != 0; parts.touched &= parts.touched - 1) {
-      const int further = std::countr_zero(parts.touched);
+    EightBlocks eight = lookAtEight(p, depths_.farthest(row) + k, nearest);
+    for (std::size_t c = 0; c < kUsed; ++c)
+      addWhere(eight.covered, weight.of[weight.used[c]], &whole_[weight.used[c]][local(column, row)]);
+    for (int at = 0; eight.touched != 0; eight.touched &= eight.touched - 1) {
+      const int further = std::countr_zero(eight.touched);
       if (column + further >= request_.veils.columns) return;
       moveOn(p, further - at);
       at = further;
@@ -207,19 +171,13 @@ class BandSums {
           sure = sure && edge > p.doubt[e], maybe = maybe && edge > -p.doubt[e];
         }
         const int px = kBlock * column + x, py = kBlock * row + y;
-        if (!maybe || sure || !patch.covers(corners_, px, py) || !isBefore(patch, block.triangle(l, k), px, py))
+        if (!maybe || sure || !patch.covers(corners_, px, py) ||
+            !isBefore(corners_, patch, request_.triangles[block.triangle(l, k)], px, py))
           continue;
         for (std::size_t c = 0; c < weight.usedCount; ++c)
           block.sums[l].channel[weight.used[c]][k] += weight.of[weight.used[c]];
       }
     }
-  }
-
-  // Whether a patch is nearer than the triangle seen at a pixel, in double precision.
-  [[nodiscard]] bool isBefore(const Patch& patch, std::uint32_t triangle, int px, int py) const {
-    const Vec3 pixel(px + 0.5, py + 0.5, 1.0);
-    const double nearness = nearnessOf(corners_.mapped, request_.triangles[triangle], pixel);
-    return patch.at(3, pixel.x, pixel.y) > nearness * patch.distance;
   }
 
   const TintSums::Request& request_;

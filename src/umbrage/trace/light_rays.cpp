@@ -24,8 +24,6 @@ constexpr float kEdgeOn = 1e-4f;
 constexpr float kLastPart = 0.99f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 // The rounding of a triangle whose corners have coordinates up to `reach`.
 double rounding(double reach) { return kRounding * reach; }
 

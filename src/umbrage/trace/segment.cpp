@@ -35,6 +35,13 @@ bool hides(const Corners& triangle, const Vec3& point, const Vec4& light) {
   return ofLight * ofPoint < 0 && passesInside(point, scene::towardsLight(light, point), triangle);
 }
 
+double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+double distanceToBox(const Vec3& p, const Box3& box) {
+  if (box.empty()) return 0.0;
+  return glm::length(glm::max(glm::max(box.min - p, p - box.max), Vec3(0.0)));
+}
+
 bool sameSurface(const Corners& triangle, const Vec3& point, double resolution) {
   const auto& [a, b, c] = triangle;
   const Vec3 outside = glm::max(glm::min(a, glm::min(b, c)) - point, point - glm::max(a, glm::max(b, c)));

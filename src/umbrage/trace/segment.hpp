@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "umbrage/math/vec.hpp"
+#include "umbrage/math/box.hpp"
 
 namespace umbrage::trace {
 
@@ -19,6 +19,12 @@ struct Corners {
 /// both passes inside it, border included. A triangle whose plane holds the light or the point hides nothing.
 /// REQUIRES: corners in lexicographic order (see lightSide; not checked).
 [[nodiscard]] bool hides(const Corners& triangle, const Vec3& point, const Vec4& light);
+
+/// The largest coordinate.
+[[nodiscard]] double largest(const Vec3& v);
+
+/// 0 inside, and for an empty box.
+[[nodiscard]] double distanceToBox(const Vec3& p, const Box3& box);
 
 /// Whether `triangle` is the surface the point lies on, or one that lies upon it as far as the resolution can tell.
 [[nodiscard]] bool sameSurface(const Corners& triangle, const Vec3& point, double resolution);

@@ -13,8 +13,6 @@
 namespace umbrage::trace {
 namespace {
 
-double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 // On which side of a line an edge passes. The corners come in one order whichever of its triangles asks, so that both get the same answer.
 int sideOfLine(const Vec3& from, const Vec3& direction, const Vec3& a, const Vec3& b) {
   return glm::dot(direction, glm::cross(a - from, b - from)) < 0.0 ? -1 : 1;
@@ -44,11 +42,6 @@ void boundsOf(const RTCBoundsFunctionArguments* arguments) {
   for (int k = 0; k < 3; ++k) box.add(boxes.surfaces->corner(arguments->primID, k));
   const Vec3f low(box.min - boxes.margin), high(box.max + boxes.margin);
   *arguments->bounds_o = {low.x, low.y, low.z, 0.0f, high.x, high.y, high.z, 0.0f};
-}
-
-double distanceToBox(const Vec3& p, const Box3& box) {
-  if (box.empty()) return 0.0;
-  return glm::length(glm::max(glm::max(box.min - p, p - box.max), Vec3(0.0)));
 }
 
 void meet(const RTCOccludedFunctionNArguments* arguments) {

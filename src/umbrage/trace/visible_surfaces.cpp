@@ -10,19 +10,15 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr double kEdgeOn = 1e-4;  ///< sine of the angle between ray and surface
 
-// How far rays may be advanced before they can meet anything. An eye far outside would lose its place in single precision.
-double distanceToBox(const Vec3& p, const Box3& box) {
-  if (box.empty()) return 0.0;
-  return glm::length(glm::max(glm::max(box.min - p, p - box.max), Vec3(0.0)));
-}
-
 struct View {
   const Occlusion& occlusion;
   Vec3 eye;  ///< relative to the origin of the surfaces
   scene::PixelRays rays;
-  double clear;  ///< distance from the eye in which nothing is
-  double near;   ///< distance from the eye in which single precision may be wrong about a hit, however small the triangle
-  double low;    ///< height of the eye over a plane below which it may count as lying in it (liesInPlane)
+  double
+      clear;  ///< distance from the eye in which nothing is: an eye far outside would lose its place in single precision
+  double
+      near;    ///< distance from the eye in which single precision may be wrong about a hit, however small the triangle
+  double low;  ///< height of the eye over a plane below which it may count as lying in it (liesInPlane)
 };
 
 // A hit in single precision, made exact. Nothing where that takes a second look: very near the eye, or edge-on, where a triangle
@@ -33,7 +29,8 @@ std::optional<double> exactDepth(const View& view, std::uint32_t triangle, const
   const double slope = glm::dot(normal, direction), square = glm::dot(direction, direction);
   const double area = glm::dot(normal, normal), height = glm::dot(c.a - view.eye, normal);
   const double near = view.near + 0x1p-16 * double(view.occlusion.reach(triangle));
-  const bool edgeOn = slope * slope <= kEdgeOn * kEdgeOn * area * square || height * height <= view.low * view.low * area;
+  const bool edgeOn =
+      slope * slope <= kEdgeOn * kEdgeOn * area * square || height * height <= view.low * view.low * area;
   if (edgeOn || estimate * estimate * square <= near * near) return std::nullopt;
   return height / slope;
 }

@@ -5,18 +5,10 @@
 #include <variant>
 
 #include "umbrage/math/predicates.hpp"
+#include "umbrage/trace/occlusion.hpp"
 
 namespace umbrage::techniques::detail {
-namespace {
-
 using raster::kBlock;
-
-/// As trace::resolution: below this part of the largest coordinate surfaces count as one.
-constexpr double kResolution = 0x1p-20;
-
-double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
-}  // namespace
 
 TintedVolumes::TintedVolumes(std::shared_ptr<const shadow::Geometry> geometry)
     : geometry_(std::move(geometry)),
@@ -75,7 +67,7 @@ class TintedVolumes::Painting {
         eye_(camera.eye),
         isSpot_(std::holds_alternative<scene::SpotLight>(light.shape)) {
     const Box3& bounds = surfaces().bounds;
-    resolution_ = kResolution * largest(glm::max(glm::abs(bounds.min), glm::abs(bounds.max)));
+    resolution_ = trace::resolution(trace::largest(glm::max(glm::abs(bounds.min), glm::abs(bounds.max))));
   }
 
   void paintBlock(int column, int row) {
