@@ -113,27 +113,35 @@ function(umbrage_test)
                        PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
 endfunction()
 
-# Shaders are real files; each is embedded as `inline constexpr std::string_view umbrage::shaders::k<Name><Stage>` in
-# <umbrage_shaders/name_stage.hpp> (zfail_volume.vert -> zfail_volume_vert.hpp, kZfailVolumeVert), and checked by
-# glslangValidator in the tests where that program exists.
-function(umbrage_embed_shaders target)
-  set(directory ${CMAKE_CURRENT_BINARY_DIR}/shaders)
-  foreach(shader IN LISTS ARGN)
-    get_filename_component(file ${shader} NAME)
+# Texts that a program carries (shaders, style sheets, rules) are real files; each is embedded as `inline constexpr std::string_view
+# umbrage::<kind>::k<NameExtension>` in <umbrage_<kind>/name_extension.hpp>: umbrage_embed(target shaders zfail_volume.vert) makes
+# <umbrage_shaders/zfail_volume_vert.hpp> and umbrage::shaders::kZfailVolumeVert.
+function(umbrage_embed target kind)
+  set(directory ${CMAKE_CURRENT_BINARY_DIR}/embedded)
+  foreach(path IN LISTS ARGN)
+    get_filename_component(file ${path} NAME)
     string(REPLACE "." "_" stem ${file})
-    set(output ${directory}/umbrage_shaders/${stem}.hpp)
+    set(output ${directory}/umbrage_${kind}/${stem}.hpp)
     add_custom_command(OUTPUT ${output}
-      COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/${shader} -DOUTPUT=${output} -DSTEM=${stem}
-              -P ${PROJECT_SOURCE_DIR}/cmake/EmbedShader.cmake
-      DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${shader} ${PROJECT_SOURCE_DIR}/cmake/EmbedShader.cmake
-      COMMENT "Embedding ${shader}" VERBATIM)
+      COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/${path} -DOUTPUT=${output} -DSTEM=${stem} -DKIND=${kind}
+              -P ${PROJECT_SOURCE_DIR}/cmake/EmbedText.cmake
+      DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${path} ${PROJECT_SOURCE_DIR}/cmake/EmbedText.cmake
+      COMMENT "Embedding ${path}" VERBATIM)
     target_sources(${target} PRIVATE ${output})
-    if(UMBRAGE_BUILD_TESTS)
-      find_program(UMBRAGE_GLSLANG glslangValidator)
-      if(UMBRAGE_GLSLANG)
-        add_test(NAME shader.${file} COMMAND ${UMBRAGE_GLSLANG} ${CMAKE_CURRENT_SOURCE_DIR}/${shader})
-      endif()
-    endif()
   endforeach()
   target_include_directories(${target} PRIVATE ${directory})
+endfunction()
+
+# Shaders are also checked by glslangValidator in the tests where that program exists.
+function(umbrage_embed_shaders target)
+  umbrage_embed(${target} shaders ${ARGN})
+  if(UMBRAGE_BUILD_TESTS)
+    find_program(UMBRAGE_GLSLANG glslangValidator)
+    if(UMBRAGE_GLSLANG)
+      foreach(shader IN LISTS ARGN)
+        get_filename_component(file ${shader} NAME)
+        add_test(NAME shader.${file} COMMAND ${UMBRAGE_GLSLANG} ${CMAKE_CURRENT_SOURCE_DIR}/${shader})
+      endforeach()
+    endif()
+  endif()
 endfunction()

@@ -1,5 +1,6 @@
 #include "agreement.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace umbrage::cli {
@@ -26,6 +27,22 @@ std::vector<Pixel> suspects(const shadow::LightMask& mask, const shadow::LightMa
   return pixels;
 }
 
+Vec3 lightAt(const shadow::LightMask& mask, std::size_t pixel) {
+  return mask.tint.empty() ? Vec3(mask.light.pixels()[pixel] / 255.0) : shadow::partsOf(mask.tint.pixels()[pixel]);
+}
+
+double rmsDifference(const shadow::LightMask& mask, const shadow::LightMask& reference) {
+  double squares = 0.0;
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i < reference.covered.size(); ++i) {
+    if (reference.covered.pixels()[i] == 0) continue;
+    const Vec3 difference = lightAt(mask, i) - lightAt(reference, i);
+    squares += glm::dot(difference, difference) / 3.0;
+    ++covered;
+  }
+  return covered == 0 ? 0.0 : std::sqrt(squares / double(covered));
+}
+
 }  // namespace
 
 Result<std::vector<Agreement>> compareMasks(std::span<const shadow::LightMask> mine,
@@ -36,7 +53,7 @@ Result<std::vector<Agreement>> compareMasks(std::span<const shadow::LightMask> m
     const auto shown = shadow::edgePixels(reference[i]);
     const auto difference = shadow::compare(mine[i], reference[i], shown, tolerance);
     const auto pixels = suspects(mine[i], reference[i], shown, tolerance);
-    Agreement agreement{difference.differing, pixels.size(), difference.covered};
+    Agreement agreement{difference.differing, pixels.size(), difference.covered, rmsDifference(mine[i], reference[i])};
     for (std::size_t k = 0; k < pixels.size() && pixels.size() <= kMostLookedAt; ++k) {
       const auto edge = edges.edgeNear(frame.camera, frame.lights[i], pixels[k].first, pixels[k].second);
       if (!edge) return tl::unexpected(edge.error());

@@ -9,6 +9,7 @@ struct Agreement {
   std::size_t differing = 0;  ///< pixels whose mask differs
   std::size_t astray = 0;     ///< those that no true shadow or depth edge comes near
   std::size_t covered = 0;    ///< pixels with a surface
+  double rms = 0.0;           ///< root of the mean square difference of the light (0 to 1) over these
 
   [[nodiscard]] bool holds() const { return astray == 0; }
 };

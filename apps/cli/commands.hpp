@@ -13,6 +13,7 @@ namespace umbrage::cli {
 [[nodiscard]] Run addProfile(CLI::App& app);
 [[nodiscard]] Run addOutline(CLI::App& app);
 [[nodiscard]] Run addEnvelope(CLI::App& app);
+[[nodiscard]] Run addGallery(CLI::App& app);
 [[nodiscard]] Run addHours(CLI::App& app);
 [[nodiscard]] Run addIsochrones(CLI::App& app);
 [[nodiscard]] Run addTerrain(CLI::App& app);

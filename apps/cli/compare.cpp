@@ -2,21 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "agreement.hpp"
-#include "choice.hpp"
 #include "commands.hpp"
-#include "drawing.hpp"
 #include "json.hpp"
+#include "judging.hpp"
 #include "outputs.hpp"
 #include "umbrage/png/png.hpp"
 
 namespace umbrage::cli {
 namespace {
-
-// The truth, without and with surfaces that let light through.
-constexpr const char* kTruth = "ray_traced";
-constexpr const char* kTintedTruth = "transparent_rays";
-constexpr const char* kSoftTruth = "soft_rays";
 
 struct CompareOptions {
   SceneOptions scene;
@@ -36,32 +29,14 @@ struct Comparison {
   }
 };
 
-// The mask of --against, pale, with every pixel that differs for any light in red.
-image::RgbImage differencePicture(const Drawing& a, const Drawing& b) {
-  const auto& seen = b.shading.surface.triangle;
-  image::RgbImage picture(seen.width(), seen.height(), image::Rgb8{255, 255, 255});
-  for (std::size_t light = 0; light < b.shading.masks.size(); ++light) {
-    const auto mine = shadow::fileImage(a.shading.masks[light]);
-    const auto theirs = shadow::fileImage(b.shading.masks[light]);
-    for (std::size_t i = 0; i < picture.size(); ++i) {
-      auto& pixel = picture.pixels()[i];
-      if (mine.pixels()[i] != theirs.pixels()[i])
-        pixel = {220, 0, 0};
-      else if (light == 0)
-        pixel.r = pixel.g = pixel.b = static_cast<std::uint8_t>(160 + theirs.pixels()[i] / 3);
-    }
-  }
-  return picture;
-}
-
 std::string comparisonText(const Comparison& comparison, const View& view) {
   std::string text = fmt::format("{} against {}, {} x {} pixels\n", comparison.technique, comparison.against,
                                  view.camera.width, view.camera.height);
   for (std::size_t i = 0; i < comparison.lights.size(); ++i) {
     const auto& light = comparison.lights[i];
-    text +=
-        fmt::format("light {:<3} {} of {} pixels differ, {} of them away from every edge   {}\n", i, light.differing,
-                    view.camera.width * view.camera.height, light.astray, shortName(view.lights[i].name));
+    text += fmt::format("light {:<3} {} of {} pixels differ, {} of them away from every edge, RMS error {:.4f}   {}\n",
+                        i, light.differing, view.camera.width * view.camera.height, light.astray, light.rms,
+                        shortName(view.lights[i].name));
   }
   return text + (comparison.agree() ? "they agree\n" : "they do not agree\n");
 }
@@ -73,8 +48,10 @@ std::string comparisonJson(const Comparison& comparison, const View& view) {
             {"agree", comparison.agree()}};
   json["lights"] = Json::array();
   for (const auto& light : comparison.lights)
-    json["lights"].push_back(
-        {{"differing", light.differing}, {"far_from_edge", light.astray}, {"covered", light.covered}});
+    json["lights"].push_back({{"differing", light.differing},
+                              {"far_from_edge", light.astray},
+                              {"covered", light.covered},
+                              {"rms", light.rms}});
   return jsonText(json);
 }
 
@@ -89,29 +66,6 @@ Result<void> checkPicture(const std::string& path, const std::string& scene) {
   return checkOutputs({path}, scene);
 }
 
-const char* truthFor(const Drawing& drawing) {
-  return drawing.traits.soft ? kSoftTruth : drawing.traits.tinted ? kTintedTruth : kTruth;
-}
-
-Result<shadow::EdgeFinder> edgeFinderFor(const std::shared_ptr<const shadow::Geometry>& geometry,
-                                         const std::string& name) {
-  auto truth = chooseTechnique(name);
-  if (!truth) return tl::unexpected(truth.error());
-  if (const auto prepared = truth->technique->prepare(geometry); !prepared) return tl::unexpected(prepared.error());
-  return shadow::EdgeFinder(geometry, std::move(truth->technique));
-}
-
-// The truth is the reference where it is one of the two, so that a lone wrong pixel is no edge of its own.
-Result<std::vector<Agreement>> compareDrawings(const Drawing& a, const Drawing& b, const View& view,
-                                               const std::shared_ptr<const shadow::Geometry>& geometry) {
-  const auto edges = edgeFinderFor(geometry, truthFor(a));
-  if (!edges) return tl::unexpected(edges.error());
-  const bool swapped = a.traits.name == truthFor(a);
-  const int tolerance = std::max(a.traits.edgeTolerancePx, b.traits.edgeTolerancePx);
-  return compareMasks((swapped ? b : a).shading.masks, (swapped ? a : b).shading.masks, {view.camera, view.lights},
-                      tolerance, *edges);
-}
-
 Result<Outcome> run(const CompareOptions& options, const Console& console) {
   if (const auto open = checkPicture(options.picture, options.scene.file); !open) return tl::unexpected(open.error());
   auto scene = loadScene(options.scene, console);
@@ -121,7 +75,7 @@ Result<Outcome> run(const CompareOptions& options, const Console& console) {
   const auto geometry = shadow::makeGeometry(view->scene);
   const auto a = draw(options.technique, geometry, *view, console);
   if (!a) return tl::unexpected(a.error());
-  const auto b = draw(options.against.empty() ? truthFor(*a) : options.against, geometry, *view, console);
+  const auto b = draw(options.against.empty() ? truthFor(a->traits) : options.against, geometry, *view, console);
   if (!b) return tl::unexpected(b.error());
   if (!geometry->filters.empty() && a->traits.tinted != b->traits.tinted)
     return fail(ErrorCode::usage,

@@ -48,6 +48,16 @@ class ProgressLine {
 volatile std::sig_atomic_t pendingSignal = 0;
 extern "C" void keepSignal(int signal) { pendingSignal = signal; }
 
+std::string quoted(const std::string& word) {
+  const bool plain = !word.empty() && std::ranges::all_of(word, [](unsigned char c) {
+    return std::isalnum(c) != 0 || std::string_view("_-+=:,./@%#").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  if (plain) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
 }  // namespace
 
 void Console::warn(std::string_view text) const {
@@ -59,6 +69,12 @@ void Console::detail(std::string_view text) const {
 }
 
 void Console::error(const Error& error) const { say(fmt::format("error: {}\n", printable(error.text()))); }
+
+std::string Console::commandLine() const {
+  std::string line = "umbrage";
+  for (const auto& word : words_) line += " " + quoted(word);
+  return line;
+}
 
 ProgressSink Console::progress() const {
   if (!showsProgress()) return {};

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "umbrage/base/error.hpp"
 #include "umbrage/base/progress.hpp"
@@ -21,7 +23,8 @@ struct Outcome {
 class Console {
  public:
   Console() = default;
-  Console(bool quiet, bool verbose) : quiet_(quiet), verbose_(verbose) {}
+  Console(bool quiet, bool verbose, std::vector<std::string> words = {})
+      : quiet_(quiet), verbose_(verbose), words_(std::move(words)) {}
 
   /// Something the user should know: a dropped face, a guessed unit. Silent with --quiet.
   void warn(std::string_view text) const;
@@ -33,10 +36,13 @@ class Console {
   [[nodiscard]] ProgressSink progress() const;
   /// Is there anybody to show progress to?
   [[nodiscard]] bool showsProgress() const;
+  /// What was typed, as a shell takes it, for pages that say how they were made.
+  [[nodiscard]] std::string commandLine() const;
 
  private:
   bool quiet_ = false;
   bool verbose_ = false;
+  std::vector<std::string> words_;  ///< after the program's name
 };
 
 /// While it lives, standard error names what goes on, where it is a terminal and the work takes more than a second.

@@ -28,6 +28,7 @@ constexpr Command kCommands[] = {
     {"sun", "Where the sun stands at a place and time", addSun},
     {"render", "A picture of a scene with exact shadows", addRender},
     {"compare", "Two techniques on one picture: which pixels differ", addCompare},
+    {"gallery", "Every technique on one scene: a page of pictures, errors and costs", addGallery},
     {"profile", "The shadows of a day: every step over the scene, and the time in shadow", addProfile},
     {"outline", "Shadows on a horizontal plane as exact outlines (GeoJSON, DXF, SVG)", addOutline},
     {"envelope", "The ground that is in shadow at some moment of a period, as exact outlines", addEnvelope},
@@ -103,7 +104,7 @@ int main(const std::vector<std::string>& words) {
   } catch (const CLI::ParseError& problem) {
     return explain(app, problem, words);
   }
-  return run(*named(), Console(quiet, verbose));
+  return run(*named(), Console(quiet, verbose, words));
 }
 
 }  // namespace

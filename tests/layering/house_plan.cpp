@@ -61,6 +61,7 @@ const std::vector<ForeignRule>& foreignRules() {
       {"fnmatch.h", {"scene"}},
       {"immintrin.h", {"*"}},
       {"umbrage_shaders/", {"gl", "render", "techniques_gl", "coin", "tests"}},
+      {"umbrage_texts/", {"report"}},
   };
   return rules;
 }

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "umbrage/base/file.hpp"
+#include "umbrage/report/html.hpp"
 #include "umbrage/report/vector_map.hpp"
 
 namespace umbrage::report {
@@ -44,23 +45,6 @@ Frame frameOf(const VectorMap& map) {
   frame.origin = glm::round(0.5 * (frame.low + frame.high));
   frame.scale = kMapSide / ((1.0 + 2.0 * kRoom) * size);
   return frame;
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
 }
 
 std::string hex(const image::Rgb8& c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }

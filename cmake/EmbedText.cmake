@@ -1,4 +1,4 @@
-# Writes one shader file as a header with a string_view constant. Called by umbrage_embed_shaders.
+# Writes one text file as a header with a string_view constant. Called by umbrage_embed.
 file(READ ${INPUT} text)
 string(REPLACE "_" ";" words ${STEM})
 set(name "k")
@@ -8,5 +8,5 @@ foreach(word IN LISTS words)
   string(TOUPPER ${head} head)
   string(APPEND name ${head}${tail})
 endforeach()
-file(WRITE ${OUTPUT}.new "#pragma once\n#include <string_view>\nnamespace umbrage::shaders {\ninline constexpr std::string_view ${name} = R\"glsl(${text})glsl\";\n}\n")
+file(WRITE ${OUTPUT}.new "#pragma once\n#include <string_view>\nnamespace umbrage::${KIND} {\ninline constexpr std::string_view ${name} = R\"text(${text})text\";\n}\n")
 file(RENAME ${OUTPUT}.new ${OUTPUT})
