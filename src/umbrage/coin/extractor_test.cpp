@@ -75,11 +75,11 @@ TEST_F(Extraction, EveryKindOfFaceSetGivesItsTriangles) {
       {"PointSet { }", 0},
       {"DrawStyle { style INVISIBLE } FaceSet { numVertices [ 4 ] }", 0},
       {"DrawStyle { style LINES } FaceSet { numVertices [ 4 ] }", 0},
-      {"IndexedFaceSet { coordIndex [ 0, 1, 2, -1, -1, 1, 2, -1, 1, 4, 5, 2, -1 ] }", 3},
+      {"IndexedFaceSet { coordIndex [ 0, 1, 2, -1, -1, 1, 2, -1, 1, 4, 5, 2, -1 ] }", 4},
       {"VRMLIndexedFaceSet { coord VRMLCoordinate { point [ 0 0 0, 1 0 0, 0 1 0 ] } coordIndex [ 0, 1, 2, -1, 0, -1, "
        "2, "
        "1, 0 ] }",
-       2},
+       3},
       {"IndexedFaceSet { coordIndex [ 0, 1, 99, -1 ] }", 0}};
   for (const auto& [text, triangles] : kinds) {
     read("Separator { " + points + text + "}");

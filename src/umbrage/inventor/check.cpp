@@ -127,19 +127,21 @@ const SoMFInt32* cornersOf(const SoNode& shape) {
   return nullptr;
 }
 
-/// The entries of faces that have corners enough, each with the -1 that ends it.
-std::vector<int> entriesOfFaces(const SoMFInt32& corners) {
+/// The entries that make every face with corners have enough of them, each face with the -1 that ends it: its last corner counts again. So faces keep
+/// their numbers, by which materials may be bound.
+std::vector<int> entriesOfFullFaces(const SoMFInt32& corners) {
   std::vector<int> kept;
   for (int i = 0, first = 0; i <= corners.getNum(); ++i) {
     if (i < corners.getNum() && corners[i] >= 0) continue;
-    if (i - first >= kFewest)
-      for (int k = first; k <= std::min(i, corners.getNum() - 1); ++k) kept.push_back(k);
+    for (int k = first; k < i; ++k) kept.push_back(k);
+    for (int k = i - first; k > 0 && k < kFewest; ++k) kept.push_back(i - 1);
+    if (i > first && i < corners.getNum()) kept.push_back(i);
     first = i + 1;
   }
   return kept;
 }
 
-void keepOnly(SoMFInt32& indices, const std::vector<int>& entries) {
+void rearrange(SoMFInt32& indices, const std::vector<int>& entries) {
   std::vector<std::int32_t> kept;
   for (const int entry : entries) kept.push_back(indices[entry]);
   indices.setNum(static_cast<int>(kept.size()));
@@ -162,7 +164,7 @@ bool hasShortFaces(const SoNode& shape) {
   return false;
 }
 
-void dropShortFaces(SoNode* shape) {
+void fillShortFaces(SoNode* shape) {
   shape->enableNotify(FALSE);
   std::vector<SoMFInt32*> lists;
   if (shape->isOfType(SoIndexedFaceSet::getClassTypeId())) {
@@ -174,10 +176,10 @@ void dropShortFaces(SoNode* shape) {
   } else {
     return;
   }
-  const std::vector<int> entries = entriesOfFaces(*lists.back());
+  const std::vector<int> entries = entriesOfFullFaces(*lists.back());
   const int count = lists.back()->getNum();
   for (SoMFInt32* list : lists)
-    if (list->getNum() >= count) keepOnly(*list, entries);  // shorter ones are not by corners
+    if (list->getNum() >= count) rearrange(*list, entries);  // shorter ones are not by corners
 }
 
 Result<void> checkGraph(SoNode* root) {

@@ -36,11 +36,13 @@ class LongBindings {
   std::unique_ptr<Saved> saved_;
 };
 
-/// Whether a face with fewer than three corners stands before others: Coin tells the triangles of none that come after it, and draws them.
+/// Whether a face with fewer than three corners stands before others: Coin tells the triangles of none that come after it. It draws them where it draws by vertex arrays,
+/// which hangs on their number and bindings, and else not.
 [[nodiscard]] bool hasShortFaces(const SoNode& shape);
 
-/// Takes such faces out, with what their corners name. It changes the node, without telling anybody: for copies.
-void dropShortFaces(SoNode* shape);
+/// Gives such faces three corners, so that they are triangles without area, and takes out those without any; with what the corners name. It changes the node, without
+/// telling anybody: for copies, and graphs that are read once and thrown away.
+void fillShortFaces(SoNode* shape);
 
 /// Makes bindings that Coin would read beyond the end of long enough, and empties those of normals and texture coordinates. It changes the
 /// node, without telling anybody: for graphs that are read once and thrown away.

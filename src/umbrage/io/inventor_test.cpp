@@ -90,6 +90,19 @@ TEST(Inventor, indexedBindingsWithoutIndices) {
   }
 }
 
+// Coin itself tells no triangle of what follows a face of two corners.
+TEST(Inventor, facesAfterOneThatIsNoneAreRead) {
+  const auto scene = loaded(kIv + R"(Separator {
+    Material { diffuseColor [ 1 0 0, 0 1 0, 0 0 1 ] }
+    MaterialBinding { value PER_FACE }
+    Coordinate3 { point [ 0 0 0, 1 0 0, 1 1 0, 0 1 0 ] }
+    IndexedFaceSet { coordIndex [ 0, 1, 2, -1, 0, 2, -1, 0, 2, 3, -1 ] } })");
+  const auto& materials = scene.meshes.at(0)->materials;
+  ASSERT_EQ(materials.size(), 3U) << "the second one has no area";
+  EXPECT_EQ(scene.materials[materials[0]].colour, Vec3(1, 0, 0));
+  EXPECT_EQ(scene.materials[materials[2]].colour, Vec3(0, 0, 1)) << "each face keeps its colour";
+}
+
 TEST(Inventor, concaveFaceWithHintIsCutInside) {
   const auto scene = loaded(kIv + R"(Separator { ShapeHints { faceType UNKNOWN_FACE_TYPE }
     Coordinate3 { point [ 0 0 0, 4 0 0, 4 1 0, 1 1 0, 1 4 0, 0 4 0 ] } FaceSet { numVertices 6 } })");

@@ -281,7 +281,7 @@ Extractor::Traversal::Response Extractor::Traversal::enter(SoCallbackAction* act
 
 // A copy whose faces Coin tells all, at the place and in the state of the shape.
 void Extractor::Traversal::readInstead(SoCallbackAction* action, const SoNode* shape, const NodeRef& copy) {
-  inventor::dropShortFaces(copy.get());
+  inventor::fillShortFaces(copy.get());
   bindings_.emplace(copy.get());
   instead_ = copy.get();
   copy->callback(action);

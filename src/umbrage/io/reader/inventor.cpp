@@ -93,8 +93,11 @@ SoCallbackAction::Response Collector::enter(SoCallbackAction* action, const SoNo
   endPart();
   using inventor::ShapeVerdict;
   const ShapeVerdict verdict = inventor::judge(action, shape);
-  // Coin's callbacks show nodes as const; what is changed in this one is of no meaning to the scene.
-  if (verdict == ShapeVerdict::read) inventor::secureBindings(const_cast<SoNode*>(shape));
+  // Coin's callbacks show nodes as const; what is changed in this graph is of no meaning to the scene.
+  if (verdict == ShapeVerdict::read) {
+    inventor::secureBindings(const_cast<SoNode*>(shape));
+    if (inventor::hasShortFaces(*shape)) inventor::fillShortFaces(const_cast<SoNode*>(shape));
+  }
   if (verdict == ShapeVerdict::broken) ++brokenShapes_;
   if (verdict == ShapeVerdict::nurbs) ++nurbs_;
   return verdict == ShapeVerdict::read ? SoCallbackAction::CONTINUE : SoCallbackAction::PRUNE;
