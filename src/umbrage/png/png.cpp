@@ -41,30 +41,37 @@ std::string chunkOf(const Text& text) {
   return fourBytes(static_cast<std::uint32_t>(body.size() - 4)) + body + fourBytes(checksum(body));
 }
 
+/// Errors have no place yet.
 template <class Pixel>
-Result<void> writePixels(const std::filesystem::path& path, const image::Image<Pixel>& picture, png_uint_32 format,
-                         const std::vector<Text>& texts = {}) {
-  if (picture.empty()) return fail(ErrorCode::output, "an empty picture cannot be written", path.string());
+Result<std::vector<std::uint8_t>> encoded(const image::Image<Pixel>& picture, png_uint_32 format) {
+  if (picture.empty()) return fail(ErrorCode::output, "an empty picture cannot be written");
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
   header.width = static_cast<png_uint_32>(picture.width());
   header.height = static_cast<png_uint_32>(picture.height());
   header.format = format;
   png_alloc_size_t size = 0;
-  std::vector<std::byte> bytes;
+  std::vector<std::uint8_t> bytes;
   const void* pixels = picture.pixels().data();
   if (png_image_write_to_memory(&header, nullptr, &size, 0, pixels, 0, nullptr) != 0) {
     bytes.resize(size);
     if (png_image_write_to_memory(&header, bytes.data(), &size, 0, pixels, 0, nullptr) != 0) {
       bytes.resize(size);
-      std::string remarks;
-      for (const Text& text : texts) remarks += chunkOf(text);
-      const auto more = std::as_bytes(std::span(remarks));
-      bytes.insert(bytes.begin() + kHeaderEnd, more.begin(), more.end());
-      return writeFile(path, bytes);
+      return bytes;
     }
   }
-  return fail(ErrorCode::output, std::string("cannot be encoded: ") + header.message, path.string());
+  return fail(ErrorCode::output, std::string("cannot be encoded: ") + header.message);
+}
+
+template <class Pixel>
+Result<void> writePixels(const std::filesystem::path& path, const image::Image<Pixel>& picture, png_uint_32 format,
+                         const std::vector<Text>& texts = {}) {
+  auto bytes = encoded(picture, format);
+  if (!bytes) return fail(bytes.error().code, bytes.error().message, path.string());
+  std::string remarks;
+  for (const Text& text : texts) remarks += chunkOf(text);
+  bytes->insert(bytes->begin() + kHeaderEnd, remarks.begin(), remarks.end());
+  return writeFile(path, std::as_bytes(std::span(*bytes)));
 }
 
 }  // namespace
@@ -82,6 +89,8 @@ Result<void> write(const std::filesystem::path& path, const image::RgbaImage& pi
 Result<void> write(const std::filesystem::path& path, const image::RgbImage& picture, const std::vector<Text>& texts) {
   return writePixels(path, picture, PNG_FORMAT_RGB, texts);
 }
+
+Result<std::vector<std::uint8_t>> encode(const image::RgbImage& picture) { return encoded(picture, PNG_FORMAT_RGB); }
 
 Result<image::RgbaImage> read(const std::filesystem::path& path) {
   const auto bytes = readFile(path);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ struct Text {
 /// With remarks, which viewers show as properties of the file.
 [[nodiscard]] Result<void> write(const std::filesystem::path& path, const image::RgbImage& picture,
                                  const std::vector<Text>& texts);
+
+/// The bytes of such a file. REQUIRES: the picture is not empty. Errors: output, when it is too large for a PNG.
+[[nodiscard]] Result<std::vector<std::uint8_t>> encode(const image::RgbImage& picture);
 
 /// Any PNG, converted to 8-bit RGBA. Errors: not a PNG, broken, larger than 16384 pixels on a side.
 [[nodiscard]] Result<image::RgbaImage> read(const std::filesystem::path& path);

@@ -231,7 +231,7 @@ class Svg {
   }
 
   const VectorMap& map_;
-  const Frame& frame_;
+  const Frame frame_;
   int digits_;
   std::string out_;
   double y_ = 0.0;
@@ -239,9 +239,8 @@ class Svg {
 
 }  // namespace
 
-Result<void> writeSvg(const VectorMap& map, const std::filesystem::path& path) {
-  const Frame frame = frameOf(map);
-  return writeFile(path, Svg(map, frame).draw());
-}
+std::string svgText(const VectorMap& map) { return Svg(map, frameOf(map)).draw(); }
+
+Result<void> writeSvg(const VectorMap& map, const std::filesystem::path& path) { return writeFile(path, svgText(map)); }
 
 }  // namespace umbrage::report

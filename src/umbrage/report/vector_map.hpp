@@ -50,6 +50,7 @@ struct VectorMap {
 [[nodiscard]] Result<void> writeDxf(const VectorMap& map, const std::filesystem::path& path);
 
 /// A picture with legend, scale, north and ledger; paths are in the scene's unit, relative to an origin it names.
+[[nodiscard]] std::string svgText(const VectorMap& map);
 [[nodiscard]] Result<void> writeSvg(const VectorMap& map, const std::filesystem::path& path);
 
 /// By extension: .geojson or .json, .dxf, .svg. Errors: usage (another extension), and those of the writer.
