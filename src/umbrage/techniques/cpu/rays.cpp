@@ -13,7 +13,7 @@ namespace {
 struct Shadowing {
   const shadow::SurfaceBuffer& seen;
   const FacingPoints facing;
-  const trace::LightRays lightRays;
+  const Hidden& hidden;
 };
 
 bool isWhole(const trace::Tile& tile, int x, int y) { return x + 4 <= tile.x1 && y + 2 <= tile.y1; }
@@ -59,7 +59,7 @@ void shadeRows(const Shadowing& s, const trace::Tile& tile, int y, FacingPoints:
       column[count] = x;
       if (s.facing.place(look(s.seen, tile, x, y), x, y, faces, points[count])) ++count;
     }
-    s.lightRays.hidden({points.data(), count}, {hidden.data(), count});
+    s.hidden({points.data(), count}, {hidden.data(), count});
     for (std::size_t i = 0; i < count; ++i) mark(tile, column[i], y, points[i].active & ~hidden[i], lit);
   }
 }
@@ -84,8 +84,13 @@ Result<Rays> Rays::build(const std::shared_ptr<const shadow::Geometry>& geometry
 
 Result<shadow::LightMask> Rays::mask(const scene::Camera& camera, const scene::Light& light,
                                      const shadow::SurfaceBuffer& seen) const {
-  const Shadowing s{seen, FacingPoints(occlusion_.surfaces(), planes_, camera, light),
-                    trace::LightRays(occlusion_, light)};
+  const trace::LightRays rays(occlusion_, light);
+  return mask(camera, light, seen, [&](auto points, auto hidden) { rays.hidden(points, hidden); });
+}
+
+Result<shadow::LightMask> Rays::mask(const scene::Camera& camera, const scene::Light& light,
+                                     const shadow::SurfaceBuffer& seen, const Hidden& hidden) const {
+  const Shadowing s{seen, FacingPoints(occlusion_.surfaces(), planes_, camera, light), hidden};
   shadow::LightMask mask{{camera.width, camera.height}, {}, {camera.width, camera.height}};
   const auto done = trace::forEachTile(camera.width, camera.height, [&](const trace::Tile& tile) {
     markCovered(seen, tile, mask.covered);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "umbrage/shadow/technique.hpp"
@@ -8,6 +10,9 @@
 #include "umbrage/trace/occlusion.hpp"
 
 namespace umbrage::techniques::detail {
+
+/// Who decides which surface points are hidden from a light, as trace::LightRays::hidden does; in many threads at once.
+using Hidden = std::function<void(std::span<const trace::SurfacePoints8> points, std::span<std::uint32_t> hidden)>;
 
 /// Masks by rays from visible surface points to the light.
 class Rays {
@@ -19,6 +24,9 @@ class Rays {
   /// `seen`: what the camera sees of the geometry.
   [[nodiscard]] Result<shadow::LightMask> mask(const scene::Camera& camera, const scene::Light& light,
                                                const shadow::SurfaceBuffer& seen) const;
+  /// The same points, with somebody else's word for the rays'.
+  [[nodiscard]] Result<shadow::LightMask> mask(const scene::Camera& camera, const scene::Light& light,
+                                               const shadow::SurfaceBuffer& seen, const Hidden& hidden) const;
 
  private:
   explicit Rays(trace::Occlusion occlusion);

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "umbrage/cut/detail/box_tree.hpp"
+#include "umbrage/cut/face_cut.hpp"
+#include "umbrage/shadow/caster_set.hpp"
+#include "umbrage/trace/occlusion.hpp"
+
+namespace umbrage::cut::detail {
+
+/// The casters as one light sees them.
+struct Casters {
+  const shadow::CasterSet& set;
+  Vec4 light;                                       ///< homogeneous, relative to CasterSet::origin
+  std::vector<std::int8_t> side;                    ///< per triangle: lightSide; 0 hides nothing
+  std::vector<std::array<std::uint32_t, 3>> edges;  ///< per triangle: of CasterSet::edges
+  std::vector<std::uint32_t> borders;               ///< edges at which the number of surfaces before a point changes
+  BoxTree borderTree;                               ///< of `borders`
+  std::vector<std::uint32_t> hiding;                ///< triangles whose side is not 0
+  BoxTree hidingTree;                               ///< of `hiding`
+
+  [[nodiscard]] static Casters of(const shadow::CasterSet& set, const Vec4& light);
+
+  [[nodiscard]] trace::Corners corners(std::uint32_t t) const {
+    return {set.corner(t, 0), set.corner(t, 1), set.corner(t, 2)};
+  }
+};
+
+/// A face that is cut.
+struct Face {
+  FaceFrame frame;
+  Vec3 up{0.0};              ///< unit normal on the light's side
+  double reach = 0.0;        ///< its largest coordinate when it casts, else 0
+  double lightHeight = 0.0;  ///< of the light over its plane; for a direction, the sine of its elevation
+  double tolerance = 0.0;    ///< lengths on the face that count as nothing
+
+  [[nodiscard]] double height(const Vec3& p) const { return glm::dot(up, p - frame.origin); }
+  /// Of a caster's corner: +1 on the light's side of the face's plane, -1 behind it, 0 on it. What single precision cannot tell from the plane counts as
+  /// on it, as it does for rays (trace::LightRays): coplanar and touching surfaces hide nothing of each other. Decided corner by corner, so that all
+  /// triangles at an edge see it alike.
+  [[nodiscard]] int sideOf(const Vec3& corner, double heightOfIt) const {
+    const double nothing = trace::resolution(std::max(reach, trace::largest(corner)));
+    return heightOfIt > nothing ? +1 : heightOfIt < -nothing ? -1 : 0;
+  }
+};
+
+/// How a caster lies to a face's plane.
+struct Standing {
+  std::array<double, 3> heights;
+  std::array<int, 3> at;  ///< +1 on the light's side, -1 behind, 0 on the plane
+  [[nodiscard]] bool before() const { return at[0] > 0 || at[1] > 0 || at[2] > 0; }
+  [[nodiscard]] bool crosses() const { return before() && (at[0] < 0 || at[1] < 0 || at[2] < 0); }
+};
+[[nodiscard]] Standing standing(const Casters& casters, const Face& face, std::uint32_t triangle);
+
+/// Calls visit(triangle) for the casters that hide `point`, which lies on the face away from borders, until it answers false.
+template <class Visit>
+void visitHiding(const Casters& casters, const Face& face, const Vec3& point, Visit&& visit) {
+  const Vec3 towards = Vec3(casters.light) - point * casters.light.w;
+  const Box3& all = casters.set.bounds;
+  const double margin = 0x1p-40 * (glm::length(all.size()) + glm::length(point - all.centre()));
+  Vec3 inverse;
+  for (int k = 0; k < 3; ++k) inverse[k] = 1.0 / (std::abs(towards[k]) < 1e-280 ? 1e-280 : towards[k]);
+  const double end = casters.light.w != 0.0 ? 1.0 : 1e300;
+  const auto meets = [&](const Box3& box) {
+    const Vec3 s = (box.min - margin - point) * inverse, t = (box.max + margin - point) * inverse;
+    const Vec3 low = glm::min(s, t), high = glm::max(s, t);
+    return std::max(std::max(low.x, low.y), std::max(low.z, 0.0)) <= std::min(std::min(high.x, high.y), std::min(high.z, end));
+  };
+  casters.hidingTree.visit(meets, [&](std::uint32_t item) {
+    const std::uint32_t t = casters.hiding[item];
+    if (!trace::hides(casters.corners(t), point, casters.light) || !standing(casters, face, t).before()) return true;
+    return static_cast<bool>(visit(t));
+  });
+}
+
+}  // namespace umbrage::cut::detail

@@ -1,0 +1,120 @@
+// Random soups on a small lattice, where everything degenerate is common: coplanar and duplicate triangles, shared edges, triangles that cross, lights in
+// corners and in planes.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "support/oracle.hpp"
+#include "support/shapes.hpp"
+#include "umbrage/cut/light_cutter.hpp"
+#include "umbrage/cut/pieces.hpp"
+#include "umbrage/shadow/facing.hpp"
+
+namespace umbrage::cut {
+namespace {
+
+using shapes::Random;
+
+int soupCount() {
+  const char* asked = std::getenv("UMBRAGE_TEST_MESHES");
+  return asked != nullptr ? std::atoi(asked) : 10000;
+}
+
+// Some triangles that cast and some that only receive; of the corners some are taken again, and some triangles whole.
+scene::Scene soup(Random& random) {
+  const int size = random.whole(1, 4);
+  const auto corner = [&](Random& r) { return r.latticePoint(0, size); };
+  std::vector<mesh::Mesh> meshes;
+  for (int part = 0; part < 2; ++part) {
+    mesh::Mesh m{"soup", {}, {}, {}};
+    const int count = random.whole(1, part == 0 ? 12 : 4);
+    for (int i = 0; i < count; ++i) {
+      const auto base = static_cast<std::uint32_t>(m.positions.size());
+      const bool sharesEdge = base > 0 && random.whole(0, 2) == 0;
+      for (int k = 0; k < 3; ++k)
+        m.positions.push_back(sharesEdge && k > 0 ? m.positions[base - static_cast<std::uint32_t>(k)] : corner(random));
+      if (base > 0 && random.whole(0, 5) == 0)
+        for (std::uint32_t k = 0; k < 3; ++k) m.positions[base + k] = m.positions[base - 3 + k];
+      m.triangles.push_back({base, base + 1, base + 2});
+    }
+    meshes.push_back(std::move(m));
+  }
+  auto s = shapes::scene(std::move(meshes));
+  s.instances[1].casts = false;
+  return s;
+}
+
+scene::Light light(Random& random) {
+  const auto whole = [&] { return Vec3(random.whole(-2, 2), random.whole(-2, 2), random.whole(-2, 2)); };
+  switch (random.whole(0, 3)) {
+    case 0: return {scene::PointLight{random.latticePoint(-1, 5)}, Vec3(1.0), 1.0, ""};
+    case 1: return {scene::PointLight{random.point({Vec3(-1.0), Vec3(6.0)})}, Vec3(1.0), 1.0, ""};
+    case 2: return {scene::DirectionalLight{whole() + Vec3(0, 0, random.whole(0, 1) != 0 ? -3 : 3)}, Vec3(1.0), 1.0, ""};
+    default: return {scene::DirectionalLight{random.point({Vec3(-1.0), Vec3(1.0)})}, Vec3(1.0), 1.0, ""};
+  }
+}
+
+/// What was seen over many soups.
+struct Seen {
+  std::size_t cut = 0, lit = 0, dark = 0;
+};
+
+// The light at random points of all triangles, against every caster asked by itself.
+void comparePoints(const shadow::Geometry& g, const LightCutter& cutter, const Vec4& towards, Random& random,
+                   Seen& seen) {
+  const oracle::Oracle bruteForce(g.surfaces);
+  Effort effort;
+  for (std::uint32_t t = 0; t < g.surfaces.triangles.size(); ++t) {
+    if (g.surfaces.normal(t) == Vec3(0.0)) continue;
+    const auto cut = cutter.cut(t, effort);
+    ASSERT_TRUE(cut);
+    seen.cut += !cut->nodes().empty();
+    const bool faces = shadow::visibleSideFacesLight(g.surfaces, t, towards, towards);
+    for (int i = 0; i < 12; ++i) {
+      double u = random.unit(), v = random.unit();
+      if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
+      const Vec3 a = g.surfaces.corner(t, 0);
+      const Vec3 p = a + u * (g.surfaces.corner(t, 1) - a) + v * (g.surfaces.corner(t, 2) - a);
+      const auto hidden = bruteForce.hidden(p, scene::towardsLight(towards, p), towards.w != 0.0);
+      if (hidden == oracle::Answer::unclear) continue;
+      const bool lit = faces && hidden == oracle::Answer::no;
+      ++(lit ? seen.lit : seen.dark);
+      EXPECT_EQ(cut->isLit(p), lit) << "triangle " << t << ", point " << p.x << ' ' << p.y << ' ' << p.z;
+    }
+  }
+}
+
+TEST(LatticeSoups, AreLitAndDarkAsBruteForceSays) {
+  Seen seen;
+  const int count = soupCount();
+  double worst = 0.0;
+  for (int i = 0; i < count && !testing::Test::HasFailure(); ++i) {
+    SCOPED_TRACE("soup " + std::to_string(i));
+    Random random(static_cast<std::uint64_t>(i) + 1);
+    const auto s = soup(random);
+    const auto geometry = shadow::makeGeometry(s);
+    scene::Light lamp = light(random);
+    // In a corner of a triangle, and in its plane.
+    if (!geometry->surfaces.triangles.empty() && random.whole(0, 4) == 0) {
+      const Vec3 a = geometry->surfaces.corner(0, 0), b = geometry->surfaces.corner(0, 1);
+      lamp.shape = scene::PointLight{random.whole(0, 1) != 0 ? a : 2.0 * b - a};
+    }
+    if (!scene::isValid(lamp)) continue;
+    const Vec4 towards = scene::homogeneous(lamp, geometry->surfaces.origin);
+    comparePoints(*geometry, LightCutter(geometry, lamp, ConeSides::none), towards, random, seen);
+    const auto pieces = cutSurfaces(geometry, {&lamp, 1});
+    ASSERT_TRUE(pieces);
+    const Areas areas = sum(areasByMaterial(geometry->surfaces, s.materials.size(), *pieces, 1));
+    const double error = std::abs(areas.lights[0].lit + areas.lights[0].shadowed - areas.surface);
+    EXPECT_LE(error, 1e-9 * areas.surface);
+    if (areas.surface > 0.0) worst = std::max(worst, error / areas.surface);
+  }
+  std::printf("%d soups: %zu triangles cut, %zu points lit, %zu dark; areas off by %.1e of their sum at most\n", count, seen.cut,
+              seen.lit, seen.dark, worst);
+  EXPECT_GT(seen.cut, static_cast<std::size_t>(count));
+  EXPECT_GT(seen.lit, static_cast<std::size_t>(count));
+  EXPECT_GT(seen.dark, static_cast<std::size_t>(count));
+}
+
+}  // namespace
+}  // namespace umbrage::cut
