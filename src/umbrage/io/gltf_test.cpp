@@ -114,6 +114,26 @@ TEST(Gltf, materialsKeepLinearColourOpacityAndName) {
   EXPECT_EQ(scene.materials.at(2).opacity, 0.0);
 }
 
+TEST(Gltf, whatShinesMirrorsAndBendsLight) {
+  const auto scene =
+      loaded(gltf(buffer(cubeBytes()) + kCubeViews + R"("extensionsUsed":["KHR_materials_emissive_strength"],"materials":[
+    {"name":"lamp","emissiveFactor":[1,0.5,0],"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4}}},
+    {"name":"mirror","pbrMetallicRoughness":{"metallicFactor":1,"roughnessFactor":0}},
+    {"name":"brushed","pbrMetallicRoughness":{"metallicFactor":1,"roughnessFactor":0.5}},
+    {"name":"painted","pbrMetallicRoughness":{"metallicFactor":1,"roughnessFactor":0,"metallicRoughnessTexture":{"index":0}}},
+    {"name":"pane","extensions":{"KHR_materials_transmission":{"transmissionFactor":1},"KHR_materials_ior":{"ior":1.7}}},
+    {"name":"lens","extensions":{"KHR_materials_transmission":{"transmissionFactor":1},"KHR_materials_ior":{"ior":1.7},"KHR_materials_volume":{"thicknessFactor":1}}}],
+    "textures":[{}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],"nodes":[{"mesh":0}])"));
+  EXPECT_EQ(scene.materials.at(0).emission, Vec3(4, 2, 0));
+  EXPECT_EQ(scene.materials.at(0).mirror, 0.0);
+  EXPECT_EQ(scene.materials.at(1).mirror, 1.0);
+  EXPECT_EQ(scene.materials.at(2).mirror, 0.25);
+  EXPECT_EQ(scene.materials.at(3).mirror, 0.0);
+  EXPECT_EQ(scene.materials.at(4).ior, 1.0);
+  EXPECT_EQ(scene.materials.at(5).ior, 1.7);
+}
+
 TEST(Gltf, whatLetsLightThrough) {
   const auto scene =
       loaded(gltf(buffer(cubeBytes()) + kCubeViews + R"("extensionsUsed":["KHR_materials_transmission"],"materials":[

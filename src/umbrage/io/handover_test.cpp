@@ -30,6 +30,7 @@ scene::Scene sample() {
   s.crs = "EPSG:7415";
   s.warnings = {"a", ""};
   s.materials = {{"brick", Vec3(0.1, 0.2, 0.3), 1.0}, {"", Vec3(1.0), 0.5}};
+  s.materials[0].emission = Vec3(3.0, 2.0, 1.0), s.materials[0].mirror = 0.25, s.materials[0].ior = 1.5;
   s.meshes = {triangle()};
   s.instances = {{"A/B", 0, Mat4(2.0), true, "A"}, {"", 0, Mat4(1.0), false}};
   s.lights = {{scene::PointLight{Vec3(1, 2, 3)}, Vec3(1, 0, 0), 2.0, "lamp"},
@@ -46,6 +47,9 @@ TEST(Handover, bringsEverythingAcross) {
   EXPECT_EQ(scene->up, scene::UpAxis::y);
   EXPECT_EQ(scene->crs, "EPSG:7415");
   EXPECT_EQ(scene->materials[1].opacity, 0.5);
+  EXPECT_EQ(scene->materials[0].emission, Vec3(3.0, 2.0, 1.0));
+  EXPECT_EQ(scene->materials[0].mirror, 0.25);
+  EXPECT_EQ(scene->materials[0].ior, 1.5);
   EXPECT_EQ(scene->meshes[0]->positions[2], Vec3(0, 1, 0.1));
   EXPECT_EQ(scene->instances[0].name, "A/B");
   EXPECT_EQ(scene->instances[0].group, "A");

@@ -56,7 +56,9 @@ std::optional<std::string> findFault(const Scene& scene) {
     const Vec3 passes = m.filter.value_or(Vec3(0.0));
     const bool passesLess =
         glm::all(glm::greaterThanEqual(passes, Vec3(0.0))) && glm::all(glm::lessThanEqual(passes, Vec3(1.0)));
-    if (!finite(m.colour) || !(m.opacity >= 0.0 && m.opacity <= 1.0) || !passesLess)
+    const bool shines = finite(m.emission) && glm::all(glm::greaterThanEqual(m.emission, Vec3(0.0)));
+    const bool bends = m.mirror >= 0.0 && m.mirror <= 1.0 && m.ior >= 1.0 && std::isfinite(m.ior);
+    if (!finite(m.colour) || !(m.opacity >= 0.0 && m.opacity <= 1.0) || !passesLess || !shines || !bends)
       return "material '" + m.name + "' is out of range";
   }
   if (!(scene.metresPerUnit > 0.0) || !std::isfinite(scene.metresPerUnit)) return "the unit is out of range";

@@ -10,7 +10,7 @@
 namespace umbrage::io::detail {
 namespace {
 
-constexpr std::uint64_t kMagic = 0x3230'4e43'5342'4d55;  // "UMBSCN02"
+constexpr std::uint64_t kMagic = 0x3330'4e43'5342'4d55;  // "UMBSCN03"
 constexpr std::uint64_t kEnd = 0x444e'455f'4e43'535f;    // "_SCN_END"
 enum class Kind : std::uint32_t { scene = 1, error = 2 };
 enum class LightKind : std::uint32_t { point = 1, directional = 2, spot = 3 };
@@ -145,6 +145,9 @@ scene::Scene unpackScene(Unpacker& in) {
     m.colour = in.value<Vec3>();
     m.opacity = in.value<double>();
     if (in.value<std::uint8_t>() != 0) m.filter = in.value<Vec3>();
+    m.emission = in.value<Vec3>();
+    m.mirror = in.value<double>();
+    m.ior = in.value<double>();
     s.materials.push_back(std::move(m));
   }
   for (std::size_t n = in.count(32); n > 0 && in.ok(); --n) s.meshes.push_back(unpackMesh(in));
@@ -210,6 +213,9 @@ std::vector<std::byte> pack(const scene::Scene& scene) {
     out.value(m.opacity);
     out.value(static_cast<std::uint8_t>(m.filter ? 1 : 0));
     if (m.filter) out.value(*m.filter);
+    out.value(m.emission);
+    out.value(m.mirror);
+    out.value(m.ior);
   }
   out.value<std::uint64_t>(scene.meshes.size());
   for (const auto& m : scene.meshes) {

@@ -1,6 +1,7 @@
 // glTF 2.0, text and binary, through tinygltf. Textures, cameras, lights, skins, morphing and animation are not read.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <set>
@@ -99,16 +100,35 @@ Result<tinygltf::Model> parse(const Request& request) {
   return model;
 }
 
+/// A number of an extension, or what it is where the file does not say.
+double numberOf(const tinygltf::Material& given, const char* extension, const char* name, double otherwise) {
+  const auto found = given.extensions.find(extension);
+  if (found == given.extensions.end() || !found->second.Has(name)) return otherwise;
+  const tinygltf::Value& value = found->second.Get(name);
+  return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
+}
+
 double transmissionOf(const tinygltf::Material& given) {
-  const auto extension = given.extensions.find("KHR_materials_transmission");
-  if (extension == given.extensions.end() || !extension->second.Has("transmissionFactor")) return 0.0;
-  const tinygltf::Value& factor = extension->second.Get("transmissionFactor");
-  return factor.IsNumber() ? std::clamp(factor.GetNumberAsDouble(), 0.0, 1.0) : 0.0;
+  return std::clamp(numberOf(given, "KHR_materials_transmission", "transmissionFactor", 0.0), 0.0, 1.0);
+}
+
+// What glTF says beyond colour: metals mirror as far as they are smooth, and only what has a volume bends light.
+void addOptics(const tinygltf::Material& given, scene::Material& m) {
+  if (given.emissiveFactor.size() == 3)
+    m.emission = numberOf(given, "KHR_materials_emissive_strength", "emissiveStrength", 1.0) *
+                 Vec3(given.emissiveFactor[0], given.emissiveFactor[1], given.emissiveFactor[2]);
+  const auto& surface = given.pbrMetallicRoughness;
+  // Where a texture says what is metal, the factors alone say nothing.
+  if (surface.metallicRoughnessTexture.index < 0)
+    m.mirror = surface.metallicFactor * std::pow(1.0 - std::clamp(surface.roughnessFactor, 0.0, 1.0), 2.0);
+  if (numberOf(given, "KHR_materials_volume", "thicknessFactor", 0.0) > 0.0)
+    m.ior = numberOf(given, "KHR_materials_ior", "ior", 1.5);
 }
 
 scene::Material materialOf(const tinygltf::Material& given, std::size_t index) {
   scene::Material m;
   m.name = given.name.empty() ? "material " + std::to_string(index) : given.name;
+  addOptics(given, m);
   const auto& factor = given.pbrMetallicRoughness.baseColorFactor;
   if (factor.size() != 4) return m;
   m.colour = glm::clamp(Vec3(factor[0], factor[1], factor[2]), 0.0, 1.0);

@@ -65,6 +65,8 @@ void compact(mesh::Mesh& m) {
     for (std::uint32_t& corner : corners) corner = weld.remap[corner];
 }
 
+constexpr double kBrightest = 1e6, kDensest = 10.0;
+
 void tidyMaterials(scene::Scene& s) {
   if (s.materials.empty()) s.materials.push_back({"default", Vec3(0.8), 1.0});
   for (scene::Material& m : s.materials) {
@@ -72,6 +74,10 @@ void tidyMaterials(scene::Scene& s) {
     m.opacity = std::isfinite(m.opacity) ? std::clamp(m.opacity, 0.0, 1.0) : 1.0;
     for (int k = 0; m.filter && k < 3; ++k)
       (*m.filter)[k] = std::isfinite((*m.filter)[k]) ? std::clamp((*m.filter)[k], 0.0, 1.0) : 0.0;
+    for (int k = 0; k < 3; ++k)
+      m.emission[k] = std::isfinite(m.emission[k]) ? std::clamp(m.emission[k], 0.0, kBrightest) : 0.0;
+    m.mirror = std::isfinite(m.mirror) ? std::clamp(m.mirror, 0.0, 1.0) : 0.0;
+    m.ior = std::isfinite(m.ior) ? std::clamp(m.ior, 1.0, kDensest) : 1.0;
     if (m.opacity == 0.0 && !m.filter) m.filter = Vec3(1.0);  // nothing is there; what is seen of its colour is nothing too
   }
 }

@@ -1,11 +1,14 @@
 // Binary glTF 2.0. Assembled here rather than by a library: it is one JSON text and one block of numbers, and this way the room
 // needs no parser. Source: Khronos, glTF 2.0 specification, 2021.
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "umbrage/io/writer/common.hpp"
 #include "umbrage/io/writer/writers.hpp"
@@ -29,13 +32,26 @@ Json matrixJson(const Mat4& m) {
   return numbers;
 }
 
+// Factors are at most 1; what shines brighter has a strength beside.
+void addEmission(Json& json, const Vec3& emission) {
+  const double strength = std::max({1.0, emission.x, emission.y, emission.z});
+  json["emissiveFactor"] = vectorJson(emission / strength);
+  if (strength > 1.0) json["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = strength;
+}
+
 Json materialJson(const scene::Material& material) {
   Json json;
   if (!material.name.empty()) json["name"] = material.name;
   Json& surface = json["pbrMetallicRoughness"];
   surface["baseColorFactor"] = {material.colour.x, material.colour.y, material.colour.z, material.opacity};
-  surface["metallicFactor"] = 0.0;
-  surface["roughnessFactor"] = 0.9;
+  // A mirror is a smooth metal (see the reader).
+  surface["metallicFactor"] = material.mirror > 0.0 ? 1.0 : 0.0;
+  surface["roughnessFactor"] = material.mirror > 0.0 ? 1.0 - std::sqrt(material.mirror) : 0.9;
+  if (material.emission != Vec3(0.0)) addEmission(json, material.emission);
+  if (material.ior > 1.0) {
+    json["extensions"]["KHR_materials_ior"]["ior"] = material.ior;
+    json["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 1.0;
+  }
   json["doubleSided"] = true;
   if (material.opacity < 1.0) json["alphaMode"] = "BLEND";
   return json;
@@ -165,7 +181,13 @@ Json GlbWriter::document() const {
   if (!extras.empty()) root["extras"] = extras;
   json["scenes"].push_back(std::move(root));
   json["nodes"] = nodes_;
-  for (const scene::Material& material : scene_.materials) json["materials"].push_back(materialJson(material));
+  std::set<std::string> used;
+  for (const scene::Material& material : scene_.materials) {
+    Json& last = json["materials"].emplace_back(materialJson(material));
+    if (last.contains("extensions"))
+      for (const auto& extension : last["extensions"].items()) used.insert(extension.key());
+  }
+  for (const std::string& extension : used) json["extensionsUsed"].push_back(extension);
   if (meshes_.empty()) return json;
   json["meshes"] = meshes_;
   json["accessors"] = accessors_;
