@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "graphics.hpp"
 #include "umbrage/techniques/cpu/registry.hpp"
 
 namespace umbrage::cli {
@@ -38,9 +37,9 @@ Choice chooseAutomatically(Needs needs) {
 
 }  // namespace
 
-std::vector<shadow::TechniqueEntry> allTechniques() {
+std::vector<shadow::TechniqueEntry> allTechniques(StencilCounter counter) {
   auto entries = techniques::cpuTechniques();
-  auto graphics = graphicsTechniques();
+  auto graphics = graphicsTechniques(counter);
   std::move(graphics.begin(), graphics.end(), std::back_inserter(entries));
   return entries;
 }
@@ -57,7 +56,7 @@ Result<std::string> parseTechnique(const std::string& word) {
 
 Result<Chosen> chooseTechnique(const std::string& name, Needs needs) {
   const Choice choice = name == "auto" ? chooseAutomatically(needs) : Choice{name, "as asked", ""};
-  const auto entries = allTechniques();
+  const auto entries = allTechniques(needs.counter);
   const auto* entry = find(entries, choice.name);
   if (entry == nullptr) return fail(ErrorCode::usage, fmt::format("there is no technique '{}'", choice.name));
   auto technique = entry->create();

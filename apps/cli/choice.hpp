@@ -4,12 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "graphics.hpp"
 #include "umbrage/shadow/technique.hpp"
 
 namespace umbrage::cli {
 
 /// Every technique of this build, the CPU's first.
-[[nodiscard]] std::vector<shadow::TechniqueEntry> allTechniques();
+[[nodiscard]] std::vector<shadow::TechniqueEntry> allTechniques(StencilCounter counter = StencilCounter::exact);
 
 /// A technique ready to be prepared, and why it was taken.
 struct Chosen {
@@ -20,8 +21,9 @@ struct Chosen {
 
 /// What a picture asks of its technique.
 struct Needs {
-  bool tinted = false;  ///< there are surfaces that let light through
-  bool soft = false;    ///< there are lights with an extent
+  bool tinted = false;                             ///< there are surfaces that let light through
+  bool soft = false;                               ///< there are lights with an extent
+  StencilCounter counter = StencilCounter::exact;  ///< of those that count in a stencil
 };
 
 /// By name, or "auto": soft_cpu or transparent_cpu where they are needed, else zpass on a GPU and hybrid_cpu without one.

@@ -18,7 +18,12 @@ Graphics findGraphics() {
   return {(*context)->renderer(), (*context)->isSoftware(), ""};
 }
 
-std::vector<shadow::TechniqueEntry> graphicsTechniques() { return techniques::openGlTechniques(); }
+std::vector<shadow::TechniqueEntry> graphicsTechniques(StencilCounter counter) {
+  render::VolumeOptions options;
+  if (counter == StencilCounter::wrap) options.overflow = render::Overflow::wraps;
+  if (counter == StencilCounter::saturate) options.overflow = render::Overflow::saturates;
+  return techniques::openGlTechniques(options);
+}
 
 Result<image::RgbImage> drawOver(const image::RgbImage& picture, const std::vector<std::string>& what,
                                  const shadow::Geometry& geometry, const shadow::Frame& frame) {
@@ -31,7 +36,7 @@ Result<image::RgbImage> drawOver(const image::RgbImage& picture, const std::vect
 
 Graphics findGraphics() { return {"", false, "this build has no OpenGL"}; }
 
-std::vector<shadow::TechniqueEntry> graphicsTechniques() { return {}; }
+std::vector<shadow::TechniqueEntry> graphicsTechniques(StencilCounter) { return {}; }
 
 Result<image::RgbImage> drawOver(const image::RgbImage&, const std::vector<std::string>&, const shadow::Geometry&,
                                  const shadow::Frame&) {

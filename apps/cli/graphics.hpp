@@ -17,8 +17,11 @@ struct Graphics {
 };
 [[nodiscard]] Graphics findGraphics();
 
+/// What becomes of counts that 8 bits of stencil cannot hold.
+enum class StencilCounter { exact, wrap, saturate };
+
 /// The techniques that run on OpenGL.
-[[nodiscard]] std::vector<shadow::TechniqueEntry> graphicsTechniques();
+[[nodiscard]] std::vector<shadow::TechniqueEntry> graphicsTechniques(StencilCounter counter = StencilCounter::exact);
 
 /// `picture` with shadow volumes ("volumes") and their edges ("silhouette") drawn over it. Errors: device.
 [[nodiscard]] Result<image::RgbImage> drawOver(const image::RgbImage& picture, const std::vector<std::string>& what,

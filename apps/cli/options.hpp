@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "declare.hpp"
+#include "graphics.hpp"
 #include "parse.hpp"
 #include "umbrage/base/angle.hpp"
 #include "umbrage/scene/scene.hpp"
@@ -54,6 +55,7 @@ struct ViewOptions {
   shadow::FinderKind silhouettes = shadow::FinderKind::automatic;
   shadow::VolumeFill fill = shadow::VolumeFill::reduced;
   shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
+  StencilCounter counter = StencilCounter::exact;
   std::optional<int> veilLayers;
   std::optional<double> seeThrough;
   std::optional<Angle> smooth;  ///< the crease angle of smooth shading
@@ -76,6 +78,7 @@ struct View {
   shadow::FinderKind silhouettes = shadow::FinderKind::automatic;
   shadow::VolumeFill fill = shadow::VolumeFill::reduced;
   shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
+  StencilCounter counter = StencilCounter::exact;
   std::optional<int> veilLayers = {};
   shadow::SoftSampling soft = {};
   bool detailed = false;  ///< statistics that take time of their own are wanted

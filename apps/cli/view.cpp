@@ -85,6 +85,7 @@ Result<View> makeView(scene::Scene scene, const ViewOptions& options) {
   view.silhouettes = options.silhouettes;
   view.fill = options.fill;
   view.extrusion = options.extrusion;
+  view.counter = options.counter;
   view.veilLayers = options.veilLayers;
   view.soft = options.soft;
   if (options.seeThrough) scene = scene::seeThrough(std::move(scene), *options.seeThrough);

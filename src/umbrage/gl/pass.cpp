@@ -32,6 +32,8 @@ GLenum code(StencilOp op) {
     case StencilOp::increment: return GL_INCR_WRAP;
     case StencilOp::decrement: return GL_DECR_WRAP;
     case StencilOp::replace: return GL_REPLACE;
+    case StencilOp::incrementToLimit: return GL_INCR;
+    case StencilOp::decrementToLimit: return GL_DECR;
   }
   return GL_KEEP;
 }

@@ -25,6 +25,8 @@ const char* name(StencilOp op) {
     case StencilOp::increment: return "+";
     case StencilOp::decrement: return "-";
     case StencilOp::replace: return "!";
+    case StencilOp::incrementToLimit: return "+|";
+    case StencilOp::decrementToLimit: return "-|";
   }
   return "?";
 }

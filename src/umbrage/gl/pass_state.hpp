@@ -16,7 +16,8 @@ struct Rect {
 [[nodiscard]] Rect intersect(const Rect& a, const Rect& b);
 
 enum class Compare { never, less, lessOrEqual, equal, notEqual, greater, greaterOrEqual, always };
-enum class StencilOp { keep, increment, decrement, replace };  ///< counting wraps around; replace: by the reference
+/// Counting wraps around, or stops at 255 and 0, as it did on all cards before 2002; replace: by the reference.
+enum class StencilOp { keep, increment, decrement, replace, incrementToLimit, decrementToLimit };
 
 struct DepthState {
   bool test = false;

@@ -34,7 +34,7 @@ void carryOnProcessor(const shadow::CasterSet& casters, const Vec3& eye, LightVo
     return place[index];
   };
   for (const VolumeGroup& group : volume.groups)
-    for (const IndexRange& range : {group.passSides, group.failSides, group.failCaps})
+    for (const IndexRange& range : {group.passSides, group.failSides, group.turnedSides, group.failCaps})
       for (std::size_t i = range.first; i < range.first + range.count; ++i)
         volume.indices[i] = placeOf(volume.indices[i]);
 }

@@ -11,7 +11,8 @@ using gl::StencilOp;
 constexpr std::array kTargets{"surface", "tiles", "stencil", "mask", "sum", "picture", "host"};
 constexpr std::array kDraws{
     "nothing",         "surfaces",        "surfaces that reach far", "casters through the near rectangle",
-    "sides by z-pass", "sides by z-fail", "caps by z-fail",          "the screen"};
+    "sides by z-pass", "sides by z-fail", "turned sides by z-fail",  "caps by z-fail",
+    "the screen"};
 
 Compare nearer(bool reversed) { return reversed ? Compare::greater : Compare::less; }
 
@@ -119,12 +120,21 @@ struct Planner {
   }
 
   void volumes(int light, const LightPlan& plan, int group) {
+    if (plan.groups[static_cast<std::size_t>(group)].nearCasters) nearCasters(light, plan, group);
+    if (plan.overflow != Overflow::saturates)
+      return volumes(light, plan, group, StencilOp::increment, StencilOp::decrement);
+    volumes(light, plan, group, StencilOp::incrementToLimit, StencilOp::keep);
+    volumes(light, plan, group, StencilOp::keep, StencilOp::decrementToLimit);
+  }
+
+  void volumes(int light, const LightPlan& plan, int group, StencilOp up, StencilOp down) {
     const GroupPlan& parts = plan.groups[static_cast<std::size_t>(group)];
-    const gl::StencilFace failUp{.depthFail = StencilOp::increment}, failDown{.depthFail = StencilOp::decrement};
-    const gl::StencilFace passUp{.pass = StencilOp::increment}, passDown{.pass = StencilOp::decrement};
-    if (parts.nearCasters) nearCasters(light, plan, group);
+    const gl::StencilFace failUp{.depthFail = up}, failDown{.depthFail = down};
+    const gl::StencilFace passUp{.pass = up}, passDown{.pass = down};
     if (parts.passSides) volume(light, plan, group, Draw::passSides, "sides", nearer(reversed), passUp, passDown);
     if (parts.failSides) volume(light, plan, group, Draw::failSides, "sides", nearer(reversed), failDown, failUp);
+    if (parts.turnedSides)
+      volume(light, plan, group, Draw::turnedSides, "turned sides", nearer(reversed), failUp, failDown);
     // Near caps lie on the casters and far caps at infinity: none is nearer than the picture, so all fail, without a
     // comparison that could fight with the surfaces they lie on.
     const Compare capsPass = plan.compareCaps ? nearer(reversed) : Compare::never;

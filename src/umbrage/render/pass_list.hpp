@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "umbrage/gl/pass_state.hpp"
+#include "umbrage/render/volume_options.hpp"
 #include "umbrage/shadow/technique.hpp"
 
 namespace umbrage::render {
@@ -31,7 +32,7 @@ enum class Shader {
   encode
 };
 /// What is drawn: nothing, the surfaces (those that reach far apart), a part of a light's volumes, one triangle over the whole target.
-enum class Draw { nothing, surfaces, largeSurfaces, nearCasters, passSides, failSides, failCaps, screen };
+enum class Draw { nothing, surfaces, largeSurfaces, nearCasters, passSides, failSides, turnedSides, failCaps, screen };
 
 /// One pass as plain data.
 struct PassStep {
@@ -61,6 +62,7 @@ struct GroupPlan {
   int eyeCount = 0;  ///< the stencil starts from it, wrapped into the bits that count
   bool nearCasters = false;  ///< what lies between the near rectangle and the light is counted first, by drawing it
   bool passSides = false, failSides = false, failCaps = false;  ///< which parts of the volumes are not empty
+  bool turnedSides = false;
 };
 
 /// What the plan must know of one light.
@@ -74,7 +76,9 @@ struct LightPlan {
   shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
   bool finite = false;  ///< the volumes' ends are given (LightVolume::farPoints)
   gl::Rect volumeArea, litArea;
-  std::optional<std::array<float, 2>> depthBounds;  ///< outside of them no volume needs to be drawn (render::depthBounds)
+  Overflow overflow = Overflow::none;
+  std::optional<std::array<float, 2>>
+      depthBounds;  ///< outside of them no volume needs to be drawn (render::depthBounds)
 };
 
 enum class Product {

@@ -7,6 +7,7 @@
 #include "umbrage/base/check.hpp"
 #include "umbrage/render/carry.hpp"
 #include "umbrage/render/near_rectangle.hpp"
+#include "umbrage/shadow/each_by_itself.hpp"
 #include "umbrage/shadow/finders/threads.hpp"
 #include "umbrage/shadow/hidden_casters.hpp"
 #include "umbrage/shadow/layering.hpp"
@@ -88,8 +89,10 @@ void tell(shadow::LightStats& stats, const Components& flags, shadow::CasterChoi
     if (flags[c] != 0) stats.choices[c] = choice;
 }
 
+bool countsBehind(Counting counting) { return counting == Counting::zFail || counting == Counting::eachTriangle; }
+
 void beginChoices(const VolumeRequest& request, shadow::LightStats& stats) {
-  const bool zFail = request.counting == Counting::zFail;
+  const bool zFail = countsBehind(request.counting);
   if (request.detailed)
     stats.choices.assign(request.casters().componentCount,
                          zFail ? shadow::CasterChoice::zFail : shadow::CasterChoice::zPass);
@@ -116,7 +119,9 @@ Components findUseless(const VolumeRequest& request, const Shape& shape, shadow:
   return useless;
 }
 
-shadow::LayerGroups groupsFor(const shadow::CasterSet& casters, const shadow::Silhouette& silhouette) {
+shadow::LayerGroups groupsFor(const shadow::CasterSet& casters, const shadow::Silhouette& silhouette,
+                              Overflow overflow) {
+  if (overflow != Overflow::none) return {};
   if (shadow::layeringBound(casters, silhouette, kWholeStencil) <= kWholeStencil) return {};
   return shadow::groupLayers(casters, silhouette, kSharedStencil);
 }
@@ -153,6 +158,8 @@ std::vector<Part> partsOf(const VolumeRequest& request, shadow::Silhouette whole
   std::vector<Part> parts;
   for (int g = 0; g < groups.count; ++g) {
     Part part{groups.count > 1 ? shadow::restrictTo(request.casters(), whole, groups, g) : std::move(whole), {}};
+    if (request.counting == Counting::eachTriangle && groups.count > 1)
+      part.silhouette = shadow::eachByItself(request.casters(), std::move(part.silhouette));
     if (countsByDrawing)
       part.atEye = shadow::touchesEye(request.casters(), part.silhouette, request.eye);
     else if (request.counting == Counting::zPass || request.counting == Counting::zPassPlus)
@@ -185,7 +192,8 @@ std::size_t trianglesIn(const LightVolume& volume, bool sidesAsEdges) {
   if (!sidesAsEdges) return triangles;
   triangles = 0;
   for (const VolumeGroup& g : volume.groups)
-    triangles += (g.passSides.count + g.failSides.count) / 2 * side + (g.failCaps.count + g.nearCasters.count) / 3;
+    triangles += (g.passSides.count + g.failSides.count + g.turnedSides.count) / 2 * side +
+                 (g.failCaps.count + g.nearCasters.count) / 3;
   return triangles;
 }
 
@@ -215,7 +223,7 @@ void tellByZFail(const VolumeRequest& request, const Part& part, shadow::LightSt
 void addGroup(LightVolume& out, const VolumeRequest& request, const Part& part, const Shape& shape,
               shadow::LightStats& stats) {
   VolumeGroup group{.eyeCount = part.atEye.count, .nearCasters = {}, .passSides = {}, .failSides = {}, .failCaps = {}};
-  const bool zFail = request.counting == Counting::zFail;
+  const bool zFail = countsBehind(request.counting);
   if (!zFail) group.passSides = append(out.indices, passSides(request, part, shape, stats));
   if (zFail || part.atEye.byZFailCount > 0) {
     const std::span<const std::uint8_t> chosen =
@@ -224,9 +232,22 @@ void addGroup(LightVolume& out, const VolumeRequest& request, const Part& part, 
       return part.atEye.byZFail[edge.component] == 0 ||
              !shadow::liesOnSide(request.casters(), edge, request.light, request.eye);
     };
-    shadow::ShadowVolume volume = shadow::extrude(request.casters(), part.silhouette,
-                                                  {.components = chosen, .reach = shape.reach(), .keepSide = isSeen,
-                                                   .sidesAsEdges = sidesAsEdges(request)});
+    const auto extrude = [&](const shadow::Silhouette& silhouette, bool caps) {
+      return shadow::extrude(request.casters(), silhouette,
+                             {.caps = caps,
+                              .components = chosen,
+                              .reach = shape.reach(),
+                              .keepSide = isSeen,
+                              .sidesAsEdges = sidesAsEdges(request)});
+    };
+    shadow::ShadowVolume volume;
+    if (request.counting == Counting::eachTriangle) {
+      auto [straight, turned] = shadow::byWinding(part.silhouette);
+      volume = extrude(straight, true);
+      group.turnedSides = append(out.indices, extrude(turned, false).sides);
+    } else {
+      volume = extrude(part.silhouette, true);
+    }
     group.failSides = append(out.indices, std::move(volume.sides));
     group.failCaps = append(out.indices, std::move(volume.caps));
     if (!zFail) {
@@ -246,6 +267,7 @@ const char* name(Counting counting) {
     case Counting::zPass: return "zpass";
     case Counting::zMixed: return "zmixed";
     case Counting::zPassPlus: return "zp_plus";
+    case Counting::eachTriangle: return "volumes_brute";
   }
   return "?";
 }
@@ -255,7 +277,9 @@ LightVolume prepareVolume(const VolumeRequest& request, shadow::LightStats& stat
     if (ended) ended(phase);
   };
   const shadow::CasterSet& casters = request.casters();
-  shadow::Silhouette whole = request.finder.silhouette(request.light);
+  const bool eachTriangle = request.counting == Counting::eachTriangle;
+  shadow::Silhouette whole =
+      eachTriangle ? shadow::eachByItself(casters, request.light) : request.finder.silhouette(request.light);
   stats.method = name(request.counting);
   stats.finder = whole.finder;
   stats.edgesTested = whole.edgesTested;
@@ -267,7 +291,7 @@ LightVolume prepareVolume(const VolumeRequest& request, shadow::LightStats& stat
   shape.endVolumes(request.options.finite ? shadow::sidesAtEye(casters, whole, request.eye) : Components());
   whole = shadow::without(casters, std::move(whole), findUseless(request, shape, stats));
   end("useless");
-  const shadow::LayerGroups groups = groupsFor(casters, whole);
+  const shadow::LayerGroups groups = groupsFor(casters, whole, request.options.overflow);
   end("layers");
   const std::optional<Mat4> throughNear = nearView(request);
   const std::vector<Part> parts = partsOf(request, std::move(whole), groups, throughNear.has_value());
@@ -293,6 +317,7 @@ LightVolume prepareVolume(const VolumeRequest& request, shadow::LightStats& stat
 }
 
 LightVolume prepareOnCard(const VolumeRequest& request, shadow::LightStats& stats, const PhaseEnd& ended) {
+  UMBRAGE_CHECK(request.counting != Counting::eachTriangle, "single triangles are extruded by the processor");
   UMBRAGE_CHECK(request.counting != Counting::zPassPlus, "a near rectangle is counted by the processor");
   const shadow::CasterSet& casters = request.casters();
   stats.method = name(request.counting);
@@ -334,7 +359,8 @@ std::vector<GroupPlan> planGroups(const LightVolume& volume) {
                      .nearCasters = group.nearCasters.count > 0,
                      .passSides = group.passSides.count > 0,
                      .failSides = group.failSides.count > 0,
-                     .failCaps = group.failCaps.count > 0});
+                     .failCaps = group.failCaps.count > 0,
+                     .turnedSides = group.turnedSides.count > 0});
   return plans;
 }
 

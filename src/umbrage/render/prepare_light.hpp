@@ -17,8 +17,8 @@ namespace umbrage::render {
 /// How the stencil counts. zPass starts from the count at the eye and falls back to z-fail for casters that the eye is too close to
 /// (shadow::countAtEye); zMixed starts from 0 and takes z-fail for every caster that may lie between the eye and the light
 /// (shadow::chooseAtEye); zPassPlus starts from what the graphics card counts by drawing the casters as the light sees them through the
-/// near rectangle.
-enum class Counting { zFail, zPass, zMixed, zPassPlus };
+/// near rectangle. eachTriangle counts as zFail, with a volume for every triangle by itself (shadow::eachByItself).
+enum class Counting { zFail, zPass, zMixed, zPassPlus, eachTriangle };
 [[nodiscard]] const char* name(Counting counting);
 
 /// A run of indices in LightVolume::indices.
@@ -30,6 +30,8 @@ struct IndexRange {
 struct VolumeGroup {
   int eyeCount = 0;  ///< where the stencil starts
   IndexRange nearCasters, passSides, failSides, failCaps;
+  /// Sides that are wound the other way round than their corners run, so that they have the depths, to the bit, of those they cancel.
+  IndexRange turnedSides = {};
 };
 
 /// What one light's shadow volumes are made of, ready to be uploaded. Computed without OpenGL.
@@ -75,7 +77,7 @@ struct VolumeRequest {
 
 /// The same for edges that stay on the graphics card: only what becomes of each component, which boxes tell. Components whose box may lie between the
 /// eye and the light are counted by z-fail, to infinity, and the stencil starts from 0.
-/// REQUIRES: not zPassPlus; no ray from the light meets more than kWholeStencil layers.
+/// REQUIRES: neither zPassPlus nor eachTriangle; no ray from the light meets more than kWholeStencil layers.
 [[nodiscard]] LightVolume prepareOnCard(const VolumeRequest& request, shadow::LightStats& stats,
                                         const PhaseEnd& ended = {});
 

@@ -109,6 +109,7 @@ void draw(gl::Pass& pass, const PassStep& step, const RunInput& input, const Gpu
     case Draw::nearCasters: volume(light->groups[group].nearCasters); break;
     case Draw::passSides: part(CardVolume::passSides, light->groups[group].passSides); break;
     case Draw::failSides: part(CardVolume::failSides, light->groups[group].failSides); break;
+    case Draw::turnedSides: volume(light->groups[group].turnedSides); break;
     case Draw::failCaps: part(CardVolume::failCaps, light->groups[group].failCaps); break;
     case Draw::screen:
       if (step.shader != Shader::keepShadow) bindScreenInputs(pass, step, input, light);
@@ -143,7 +144,9 @@ void run(gl::HostScope& scope, const PassList& list, const RunInput& input, cons
 std::vector<std::uint64_t> countFragments(gl::HostScope& scope, const PassList& list, const RunInput& input) {
   std::vector<std::uint64_t> fragments(input.lights.size(), 0);
   for (const PassStep& step : list.steps) {
-    if (step.draw != Draw::passSides && step.draw != Draw::failSides && step.draw != Draw::failCaps) continue;
+    if (step.draw != Draw::passSides && step.draw != Draw::failSides && step.draw != Draw::turnedSides &&
+        step.draw != Draw::failCaps)
+      continue;
     const auto light = static_cast<std::size_t>(step.light);
     gl::PassState state = step.state;
     state.depth.test = state.stencil.test = false;

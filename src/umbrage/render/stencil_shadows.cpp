@@ -246,7 +246,8 @@ Result<shadow::LightStats> StencilShadows::mark(const scene::Light& light, const
   placement.frontIsClockwise = mirrors(view);
   // A ray may enter a volume through a caster that the depth buffer does not hold; without caps nobody would count that.
   const Counting counting = options.castersInDepth ? options.counting : Counting::zFail;
-  UMBRAGE_CHECK(counting != Counting::zPassPlus, "Zp+ draws in the house's own frames only");
+  UMBRAGE_CHECK(counting != Counting::zPassPlus && counting != Counting::eachTriangle,
+                "Zp+ and single triangles are drawn in the house's own frames only");
 
   shadow::LightStats stats;
   stats.method = name(counting);

@@ -16,7 +16,7 @@ struct HostView {
 };
 
 struct StencilShadowOptions {
-  Counting counting = Counting::zPass;  ///< REQUIRES: not zPassPlus
+  Counting counting = Counting::zPass;  ///< REQUIRES: neither zPassPlus nor eachTriangle
   /// False when some casters are not drawn into the depth buffer (invisible, or transparent ones drawn later): then z-fail counts,
   /// with caps compared with the depth. CAVEAT: caps of casters that are in it after all would fight with their surfaces.
   bool castersInDepth = true;

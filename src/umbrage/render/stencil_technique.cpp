@@ -12,11 +12,12 @@
 namespace umbrage::render {
 namespace {
 
-std::string reasonFor(Counting counting, const shadow::LightStats& stats, const LightVolume& volume) {
+std::string reasonFor(Counting counting, Overflow overflow, const shadow::LightStats& stats,
+                      const LightVolume& volume) {
   const std::size_t groups = volume.groups.size();
   const std::string fallen = std::to_string(stats.castersByZFail);
   std::string text = "no caps needed; the eye is outside all shadow volumes";
-  if (counting == Counting::zFail)
+  if (counting == Counting::zFail || counting == Counting::eachTriangle)
     text = "right for every eye and every caster";
   else if (counting == Counting::zMixed && stats.castersByZFail > 0)
     text = fallen + " casters by z-fail, since they may lie between the eye and the light, the others by z-pass";
@@ -30,6 +31,8 @@ std::string reasonFor(Counting counting, const shadow::LightStats& stats, const 
     text = fallen + " casters by z-fail, since the eye touches a side of their shadow volumes";
   else if (stats.eyeCount != 0)
     text = "no caps needed; the eye is inside " + std::to_string(stats.eyeCount) + " shadow volumes, which is counted";
+  if (overflow == Overflow::wraps) text += "; counts of 256 wrap to 0 and are lit, as asked";
+  if (overflow == Overflow::saturates) text += "; counts stop at 255, as asked";
   if (groups > 1)
     text +=
         "; in " + std::to_string(groups) + " groups, since more casters may lie behind each other than 8 bits count";
@@ -116,7 +119,8 @@ class StencilTechnique final : public GlTechnique {
 
   Result<void> useFinder(shadow::FinderKind kind) {
     const std::shared_ptr<const shadow::CasterSet> casters(geometry_, &geometry_->casters);
-    const bool byChoice = kind == shadow::FinderKind::automatic && !own_->quirks.software && counting_ != Counting::zPassPlus;
+    const bool byChoice = kind == shadow::FinderKind::automatic && !own_->quirks.software &&
+                          counting_ != Counting::zPassPlus && counting_ != Counting::eachTriangle;
     if (byChoice || kind == shadow::FinderKind::gpu) {
       if (own_->finder != nullptr && &own_->finder->casters() == casters.get()) return {};
       auto made = GpuFinder::make(casters);
@@ -156,6 +160,7 @@ class StencilTechnique final : public GlTechnique {
     if (auto done = useFinder(frame.silhouettes); !done) return done;
     VolumeOptions volumes = frame.fill == shadow::VolumeFill::plain ? kPlainVolumes : options_;
     volumes.extrusion = frame.extrusion.value_or(options_.extrusion);
+    volumes.overflow = options_.overflow;
     while (own_->lights.size() < frame.lights.size()) own_->lights.emplace_back();
     const RunInput input{.programs = own_->programs,
                          .positions = own_->scene->positions(),
@@ -247,7 +252,9 @@ class StencilTechnique final : public GlTechnique {
   Result<bool> extrudeOnCard(gl::HostScope& scope, GpuLight& gpu, const VolumeRequest& request, LightVolume& volume,
                              shadow::LightStats& stats, const PhaseEnd& ended) {
     const shadow::Extrusion extrusion = request.options.extrusion;
-    if (own_->finder == nullptr || counting_ == Counting::zPassPlus || extrusion == shadow::Extrusion::processor) return false;
+    if (own_->finder == nullptr || counting_ == Counting::zPassPlus || counting_ == Counting::eachTriangle ||
+        extrusion == shadow::Extrusion::processor)
+      return false;
     if (own_->finder->layers(request.light) > kWholeStencil) return false;
     if (ended) ended("layers");
     shadow::LightStats onCard = stats;
@@ -304,7 +311,7 @@ class StencilTechnique final : public GlTechnique {
     if (!onCard) return tl::unexpected(onCard.error());
     gpu.onCard = *onCard;
     if (!gpu.onCard) volume = prepareVolume(request, stats, ended);
-    stats.reason = reasonFor(counting_, stats, volume);
+    stats.reason = reasonFor(counting_, volumes.overflow, stats, volume);
     ViewBlock inPicture = viewBlock(view, origin, homogeneous);
     inPicture.toClip = Mat4f(1.0f);
     for (const auto& done : {gpu.volume.setAll(volume.indices), gpu.farPoints.setAll(volume.farPoints), gpu.points.setAll(volume.points),
@@ -326,6 +333,7 @@ class StencilTechnique final : public GlTechnique {
         .finite = !volume.farPoints.empty(),
         .volumeArea = volumeArea(view, casters.bounds, counted, homogeneous, origin, placement),
         .litArea = gl::intersect(litArea(view, light, placement), boxArea(view, receivers, origin, placement)),
+        .overflow = volumes.overflow,
         .depthBounds = bounds};
   }
 

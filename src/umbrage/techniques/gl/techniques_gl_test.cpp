@@ -12,6 +12,7 @@
 #include "umbrage/shadow/composite.hpp"
 #include "umbrage/shadow/facing.hpp"
 #include "umbrage/techniques/gl/registry.hpp"
+#include "umbrage/techniques/gl/volumes_brute.hpp"
 #include "umbrage/techniques/gl/zfail.hpp"
 #include "umbrage/techniques/gl/zmixed.hpp"
 #include "umbrage/techniques/gl/zp_plus.hpp"
@@ -35,6 +36,9 @@ std::unique_ptr<render::GlTechnique> reducedZMixed(std::shared_ptr<gl::Context> 
 }
 std::unique_ptr<render::GlTechnique> reducedZPassPlus(std::shared_ptr<gl::Context> context) {
   return makeZPassPlus(std::move(context));
+}
+std::unique_ptr<render::GlTechnique> reducedBrute(std::shared_ptr<gl::Context> context) {
+  return makeVolumesBrute(std::move(context));
 }
 std::unique_ptr<render::GlTechnique> zFailFaceByFace(std::shared_ptr<gl::Context> context) {
   return makeZFail(std::move(context), {.twoSided = false});
@@ -334,18 +338,21 @@ TEST_P(StencilTechniques, SurviveEmptyScenesAndOddSizes) {
   EXPECT_EQ(tooWide.error().code, ErrorCode::device);
 }
 
-constexpr std::array kVariants{"zfail", "zpass", "zmixed", "zp_plus", "zfail_face_by_face", "zfail_plain", "zpass_plain"};
+constexpr std::array kVariants{"zfail",       "zpass",      "zmixed", "zp_plus", "volumes_brute", "zfail_face_by_face",
+                               "zfail_plain", "zpass_plain"};
 INSTANTIATE_TEST_SUITE_P(Gl, StencilTechniques,
-                         ::testing::Values(reducedZFail, reducedZPass, reducedZMixed, reducedZPassPlus, zFailFaceByFace, plainZFail, plainZPass),
+                         ::testing::Values(reducedZFail, reducedZPass, reducedZMixed, reducedZPassPlus, reducedBrute,
+                                           zFailFaceByFace, plainZFail, plainZPass),
                          [](const auto& which) { return kVariants[which.index]; });
 
 TEST(GlTechniques, AreTheWaysToCount) {
   const auto entries = openGlTechniques();
-  ASSERT_EQ(entries.size(), 4u);
+  ASSERT_EQ(entries.size(), 5u);
   EXPECT_EQ(entries[0].traits.name, "zfail");
   EXPECT_EQ(entries[1].traits.name, "zpass");
   EXPECT_EQ(entries[2].traits.name, "zmixed");
   EXPECT_EQ(entries[3].traits.name, "zp_plus");
+  EXPECT_EQ(entries[4].traits.name, "volumes_brute");
 }
 
 }  // namespace
