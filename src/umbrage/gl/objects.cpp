@@ -15,11 +15,17 @@ GLenum internalFormat(Format format) {
     case Format::rgba8: return GL_RGBA8;
     case Format::rgba16f: return GL_RGBA16F;
     case Format::rg32f: return GL_RG32F;
+    case Format::rgba32f: return GL_RGBA32F;
     case Format::id32: return GL_R32UI;
+    case Format::depth32f: return GL_DEPTH_COMPONENT32F;
     case Format::depth32fStencil8: return GL_DEPTH32F_STENCIL8;
     case Format::depth24Stencil8: return GL_DEPTH24_STENCIL8;
   }
   return GL_RGBA8;
+}
+
+GLenum attachment(Format depth) {
+  return depth == Format::depth32f ? GL_DEPTH_ATTACHMENT : GL_DEPTH_STENCIL_ATTACHMENT;
 }
 
 // Errors that somebody else left behind must not be taken for ours.
@@ -95,14 +101,14 @@ Result<Texture> Texture::make(Format format, int width, int height) {
   return texture;
 }
 
-Result<Framebuffer> Framebuffer::make(const Texture* colour, const Texture* depthStencil) {
+Result<Framebuffer> Framebuffer::make(const Texture* colour, const Texture* depth) {
   GLuint name = 0;
   glCreateFramebuffers(1, &name);
   Framebuffer framebuffer;
   framebuffer.handle_ = Handle(Handle::Kind::framebuffer, name);
   const GLenum draw = colour != nullptr ? GL_COLOR_ATTACHMENT0 : GL_NONE;
   if (colour != nullptr) glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, colour->name(), 0);
-  if (depthStencil != nullptr) glNamedFramebufferTexture(name, GL_DEPTH_STENCIL_ATTACHMENT, depthStencil->name(), 0);
+  if (depth != nullptr) glNamedFramebufferTexture(name, attachment(depth->format()), depth->name(), 0);
   glNamedFramebufferDrawBuffer(name, draw);
   glNamedFramebufferReadBuffer(name, draw);
   const GLenum status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);

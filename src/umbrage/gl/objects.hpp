@@ -63,7 +63,7 @@ class Buffer {
   std::size_t bytes_ = 0;
 };
 
-enum class Format { grey8, rgba8, rgba16f, rg32f, id32, depth32fStencil8, depth24Stencil8 };
+enum class Format { grey8, rgba8, rgba16f, rg32f, rgba32f, id32, depth32f, depth32fStencil8, depth24Stencil8 };
 
 /// A picture on the graphics card, one level, one sample.
 class Texture {
@@ -82,12 +82,12 @@ class Texture {
   int width_ = 0, height_ = 0;
 };
 
-/// One colour picture (optional) and one depth-stencil picture (optional) to draw into.
+/// One colour picture (optional) and one picture of depth, with or without a stencil (optional), to draw into.
 class Framebuffer {
  public:
   Framebuffer() = default;
   /// Errors: ErrorCode::device when the driver finds the combination incomplete. REQUIRES: the textures outlive it.
-  [[nodiscard]] static Result<Framebuffer> make(const Texture* colour, const Texture* depthStencil);
+  [[nodiscard]] static Result<Framebuffer> make(const Texture* colour, const Texture* depth);
   [[nodiscard]] unsigned name() const { return handle_.name(); }
 
  private:

@@ -79,6 +79,8 @@ void apply(const PassState& state, bool knowsDepthBounds) {
   const GLboolean colour = state.colourWrite ? GL_TRUE : GL_FALSE;
   glColorMaski(0, colour, colour, colour, colour);
   turn(GL_CULL_FACE, state.cullBack);
+  UMBRAGE_CHECK(state.clipDistances >= 0 && state.clipDistances <= kMostClipDistances, "so many clip distances");
+  for (int i = 0; i < kMostClipDistances; ++i) turn(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i), i < state.clipDistances);
   glFrontFace(state.frontIsClockwise ? GL_CW : GL_CCW);
   glClipControl(state.clipOrigin == ClipOrigin::lowerLeft ? GL_LOWER_LEFT : GL_UPPER_LEFT,
                 state.clipDepth == ClipDepth::zeroToOne ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);

@@ -79,6 +79,7 @@ std::string describe(const PassState& state) {
   if (state.depthRange != PassState{}.depthRange)
     out += "; depth range " + std::to_string(state.depthRange[0]) + ".." + std::to_string(state.depthRange[1]);
   if (state.clipOrigin == ClipOrigin::upperLeft) out += "; origin upper left";
+  if (state.clipDistances != 0) out += "; " + std::to_string(state.clipDistances) + " clip distances";
   if (state.scissor) out += "; scissor " + text(*state.scissor);
   if (state.depthBounds)
     out += "; depth bounds " + std::to_string((*state.depthBounds)[0]) + ".." + std::to_string((*state.depthBounds)[1]);

@@ -48,6 +48,8 @@ enum class Blend { off, add, over };  ///< over: source is premultiplied by its 
 enum class ClipDepth { minusOneToOne, zeroToOne };
 enum class ClipOrigin { lowerLeft, upperLeft };
 
+inline constexpr int kMostClipDistances = 2;
+
 /// Everything that the fixed part of the pipeline needs to know for a pass: a plain value, applied as a whole.
 /// A default value is the house baseline between passes.
 struct PassState {
@@ -60,6 +62,7 @@ struct PassState {
   ClipDepth clipDepth = ClipDepth::zeroToOne;
   ClipOrigin clipOrigin = ClipOrigin::lowerLeft;
   std::array<float, 2> depthRange{0.0f, 1.0f};
+  int clipDistances = 0;  ///< so many of gl_ClipDistance clip, from the first; at most kMostClipDistances
   Rect viewport;
   std::optional<Rect> scissor;  ///< none: the whole viewport
   /// Fragments that fall where the stored depth lies outside are left out, stencil and all. REQUIRES: Quirks::depthBounds; lowest first, within 0..1.

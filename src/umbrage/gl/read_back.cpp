@@ -31,6 +31,10 @@ image::Image<Vec2f> readPairs(const HostScope&, const Framebuffer& from, int wid
   return read<Vec2f>(from, width, height, GL_RG, GL_FLOAT);
 }
 
+image::Image<Vec4f> readQuadruples(const HostScope&, const Framebuffer& from, int width, int height) {
+  return read<Vec4f>(from, width, height, GL_RGBA, GL_FLOAT);
+}
+
 image::Image<std::uint32_t> readIds(const HostScope&, const Framebuffer& from, int width, int height) {
   return read<std::uint32_t>(from, width, height, GL_RED_INTEGER, GL_UNSIGNED_INT);
 }

@@ -44,6 +44,11 @@ Result<void> GpuFrame::needTiles() {
   return add(tiles_, tilesTarget_, gl::Format::rg32f, tilesFor(width()), tilesFor(height()), nullptr);
 }
 
+Result<void> GpuFrame::needMaskSum() {
+  if (maskSum_.name() != 0) return {};
+  return add(maskSum_, maskSumTarget_, gl::Format::rgba32f, width(), height(), nullptr);
+}
+
 Result<void> GpuFrame::needPicture() {
   if (sum_.name() != 0) return {};
   if (auto done = add(picture_, pictureTarget_, gl::Format::rgba8, width(), height(), nullptr); !done) return done;

@@ -20,12 +20,17 @@ class GpuFrame {
   [[nodiscard]] Result<void> needMasks(std::size_t count);
   [[nodiscard]] Result<void> needPicture();
   [[nodiscard]] Result<void> needTiles();
+  /// Room for the mean of many masks.
+  [[nodiscard]] Result<void> needMaskSum();
 
   [[nodiscard]] int width() const { return depthStencil_.width(); }
   [[nodiscard]] int height() const { return depthStencil_.height(); }
 
   [[nodiscard]] const gl::Texture& ids() const { return ids_; }
   [[nodiscard]] const gl::Texture& depthStencil() const { return depthStencil_; }
+  [[nodiscard]] const gl::Texture& mask(std::size_t light) const { return masks_[light].texture; }
+  /// Light and weight of two halves of a light's samples.
+  [[nodiscard]] const gl::Texture& maskSum() const { return maskSum_; }
   [[nodiscard]] const gl::Texture& sum() const { return sum_; }
   /// The finished picture, sRGB-encoded RGBA8, row 0 at the bottom: for a host to show.
   [[nodiscard]] const gl::Texture& picture() const { return picture_; }
@@ -33,6 +38,7 @@ class GpuFrame {
   [[nodiscard]] const gl::Framebuffer& surfaceTarget() const { return surfaceTarget_; }
   [[nodiscard]] const gl::Framebuffer& stencilTarget() const { return stencilTarget_; }
   [[nodiscard]] const gl::Framebuffer& maskTarget(std::size_t light) const { return masks_[light].target; }
+  [[nodiscard]] const gl::Framebuffer& maskSumTarget() const { return maskSumTarget_; }
   [[nodiscard]] const gl::Framebuffer& tilesTarget() const { return tilesTarget_; }
   [[nodiscard]] const gl::Framebuffer& sumTarget() const { return sumTarget_; }
   [[nodiscard]] const gl::Framebuffer& pictureTarget() const { return pictureTarget_; }
@@ -43,9 +49,9 @@ class GpuFrame {
     gl::Framebuffer target;
   };
   GpuFrame() = default;
-  gl::Texture ids_, depthStencil_, tiles_, sum_, picture_;
+  gl::Texture ids_, depthStencil_, tiles_, maskSum_, sum_, picture_;
   std::vector<Mask> masks_;
-  gl::Framebuffer surfaceTarget_, stencilTarget_, tilesTarget_, sumTarget_, pictureTarget_;
+  gl::Framebuffer surfaceTarget_, stencilTarget_, tilesTarget_, maskSumTarget_, sumTarget_, pictureTarget_;
 };
 
 }  // namespace umbrage::render

@@ -250,4 +250,26 @@ PassList planLights(const gl::PassState& placement, bool reversed, const std::ve
   return std::move(planner.list);
 }
 
+PassList planMask(const gl::PassState& placement, int light, const gl::Rect& litArea, std::uint8_t shadow) {
+  Planner planner{placement, true, Product::masks, {}};
+  planner.clearMask(light);
+  if (litArea.empty()) return std::move(planner.list);
+  planner.lit(light, {.volumeArea = {}, .litArea = litArea});
+  planner.list.steps.back().state.stencil.readMask = shadow;
+  return std::move(planner.list);
+}
+
+PassList planMaskedPicture(const gl::PassState& placement, int lights) {
+  Planner planner{placement, true, Product::picture, {}};
+  planner.ambient();
+  for (int i = 0; i < lights; ++i) {
+    PassStep s = planner.screen("light by its mask", "lit", Target::sum, Shader::maskedLight);
+    s.light = i;
+    s.state.blend = gl::Blend::add;
+    planner.list.steps.push_back(s);
+  }
+  planner.list.steps.push_back(planner.screen("encode", "lit", Target::picture, Shader::encode));
+  return std::move(planner.list);
+}
+
 }  // namespace umbrage::render

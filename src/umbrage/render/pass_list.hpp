@@ -29,6 +29,7 @@ enum class Shader {
   lightMask,
   ambient,
   light,
+  maskedLight,
   encode
 };
 /// What is drawn: nothing, the surfaces (those that reach far apart), a part of a light's volumes, one triangle over the whole target.
@@ -97,5 +98,12 @@ enum class Product {
 /// Plans the lights, and what is made of them. REQUIRES: planSurfaces() has been run, but for Product::hostStencil.
 [[nodiscard]] PassList planLights(const gl::PassState& placement, bool reversed, const std::vector<LightPlan>& lights,
                                   Product product);
+
+// The pieces of it for techniques that find shadows in ways of their own.
+
+/// The mask of a light inside `litArea`, black elsewhere: white where the surface faces it and the stencil has none of the bits `shadow`.
+[[nodiscard]] PassList planMask(const gl::PassState& placement, int light, const gl::Rect& litArea, std::uint8_t shadow);
+/// The picture from the first `lights` masks.
+[[nodiscard]] PassList planMaskedPicture(const gl::PassState& placement, int lights);
 
 }  // namespace umbrage::render

@@ -4,6 +4,7 @@
 #include <umbrage_shaders/encode_frag.hpp>
 #include <umbrage_shaders/light_frag.hpp>
 #include <umbrage_shaders/light_mask_frag.hpp>
+#include <umbrage_shaders/masked_light_frag.hpp>
 #include <umbrage_shaders/receiver_tiles_frag.hpp>
 #include <umbrage_shaders/screen_vert.hpp>
 #include <umbrage_shaders/surface_frag.hpp>
@@ -40,6 +41,7 @@ gl::Program compile(Shader shader) {
     case Shader::lightMask: return {kScreenVert, kLightMaskFrag};
     case Shader::ambient: return {kScreenVert, kAmbientFrag};
     case Shader::light: return {kScreenVert, kLightFrag};
+    case Shader::maskedLight: return {kScreenVert, kMaskedLightFrag};
     case Shader::encode: return {kScreenVert, kEncodeFrag};
   }
   UMBRAGE_CHECK(false, "no shader");
@@ -78,6 +80,7 @@ void bindScreenInputs(gl::Pass& pass, const PassStep& step, const RunInput& inpu
   if (input.materials != nullptr) pass.storage(4, *input.materials);
   pass.texture(0, input.frame->ids());
   if (step.shader == Shader::encode) pass.texture(1, input.frame->sum());
+  if (step.shader == Shader::maskedLight) pass.texture(1, input.frame->mask(static_cast<std::size_t>(step.light)));
   if (step.shader == Shader::receiverTiles) pass.texture(1, input.frame->depthStencil());
 }
 

@@ -2,11 +2,11 @@
 
 #include "umbrage/gl/read_back.hpp"
 #include "umbrage/render/depth_bounds.hpp"
+#include "umbrage/render/frame_data.hpp"
 #include "umbrage/render/gpu_finder.hpp"
 #include "umbrage/render/run_passes.hpp"
 #include "umbrage/render/technique.hpp"
 #include "umbrage/render/uniforms.hpp"
-#include "umbrage/shadow/facing.hpp"
 #include "umbrage/shadow/phase_clock.hpp"
 
 namespace umbrage::render {
@@ -39,12 +39,6 @@ std::string reasonFor(Counting counting, Overflow overflow, const shadow::LightS
   return text;
 }
 
-std::vector<Vec4f> coloursOf(std::span<const scene::Material> materials) {
-  std::vector<Vec4f> colours;
-  for (const scene::Material& m : materials) colours.emplace_back(Vec3f(m.colour), 1.0f);
-  return colours;
-}
-
 class StencilTechnique final : public GlTechnique {
  public:
   StencilTechnique(const shadow::Traits& traits, Counting counting, const VolumeOptions& options,
@@ -74,7 +68,7 @@ class StencilTechnique final : public GlTechnique {
     const gl::CurrentContext current(context_);
     gl::HostScope scope;
     auto& target = own_->frame;
-    if (auto done = resize(target, frame.camera); !done) return tl::unexpected(done.error());
+    if (auto done = fit(target, frame.camera.width, frame.camera.height); !done) return tl::unexpected(done.error());
     if (auto done = target->needMasks(frame.lights.size()); !done) return tl::unexpected(done.error());
 
     shadow::Shading shading;
@@ -82,7 +76,9 @@ class StencilTechnique final : public GlTechnique {
     const PhaseEnd ended = [&](const char* phase) { clock.end(phase); };
     if (auto done = render(scope, *target, frame, Product::masks, nullptr, shading.stats, ended); !done)
       return tl::unexpected(done.error());
-    readBack(scope, *target, frame, shading);
+    const View view = viewOf(frame.camera, geometry_->surfaces.bounds.radius());
+    readMasks(scope, *target, view, frame.lights.size(), seen_ ? std::move(*seen_) : readSurface(scope, *target), shading);
+    seen_.reset();
     tellCounts(shading.stats);
     clock.end("readback");
     return shading;
@@ -112,7 +108,7 @@ class StencilTechnique final : public GlTechnique {
     std::optional<GpuFrame> frame;
     gl::Quirks quirks;
     Programs programs;
-    gl::Buffer view, shading, materials;
+    FrameData data;
     std::vector<GpuLight> lights;
     std::unique_ptr<GpuFinder> finder;  ///< null: the processor finds silhouettes
   };
@@ -138,22 +134,13 @@ class StencilTechnique final : public GlTechnique {
     return own_->finder != nullptr ? static_cast<const shadow::SilhouetteFinder&>(*own_->finder) : *finder_;
   }
 
-  static Result<void> resize(std::optional<GpuFrame>& frame, const scene::Camera& camera) {
-    if (frame && frame->width() == camera.width && frame->height() == camera.height) return {};
-    frame.reset();
-    auto made = GpuFrame::make(camera.width, camera.height);
-    if (!made) return tl::unexpected(made.error());
-    frame.emplace(std::move(*made));
-    return {};
-  }
-
   Result<void> render(gl::HostScope& scope, GpuFrame& target, const shadow::Frame& frame, Product product,
                       const PictureOptions* options, shadow::FrameStats& stats, const PhaseEnd& ended) {
     const scene::Camera& camera = frame.camera;
     const View view = viewOf(camera, geometry_->surfaces.bounds.radius());
     gl::PassState placement;
     placement.viewport = {0, 0, camera.width, camera.height};
-    if (auto done = uploadFrame(view, camera, options); !done) return done;
+    if (auto done = upload(own_->data, view, geometry_->surfaces.origin, camera, options); !done) return done;
     if (auto done = own_->scene->arrangeFor(*geometry_, view, camera.width, camera.height); !done) return done;
     if (ended) ended("facing");
 
@@ -166,9 +153,9 @@ class StencilTechnique final : public GlTechnique {
                          .positions = own_->scene->positions(),
                          .scene = &*own_->scene,
                          .frame = &target,
-                         .materials = options != nullptr ? &own_->materials : nullptr,
-                         .view = &own_->view,
-                         .shading = &own_->shading,
+                         .materials = options != nullptr ? &own_->data.materials : nullptr,
+                         .view = &own_->data.view,
+                         .shading = &own_->data.shading,
                          .lights = own_->lights};
     seen_.reset();
     run(scope, planSurfaces(placement, view.reversed), input, ended);
@@ -192,20 +179,6 @@ class StencilTechnique final : public GlTechnique {
     return {};
   }
 
-  // What no light changes.
-  Result<void> uploadFrame(const View& view, const scene::Camera& camera, const PictureOptions* options) {
-    ShadingBlock shading = shadingBlock(camera);
-    if (options != nullptr) {
-      shading.sky = Vec4f(Vec3f(options->up), static_cast<float>(options->light.ambient));
-      shading.background = Vec4f(Vec3f(options->light.background), 1.0f);
-      const std::vector<Vec4f> colours = coloursOf(options->materials);
-      if (auto done = own_->materials.setAll(colours); !done) return done;
-    }
-    const ViewBlock block = viewBlock(view, geometry_->surfaces.origin, Vec4(0.0));
-    if (auto done = own_->view.setOne(block); !done) return done;
-    return own_->shading.setOne(shading);
-  }
-
   // A rasteriser on the processor has the pixels at hand, and shade() wants them anyway; from a graphics card only tiles are fetched.
   Result<image::Image<Vec2f>> tileDepths(gl::HostScope& scope, std::size_t light, std::span<const std::uint8_t> facing,
                                          GpuFrame& target, const RunInput& input) {
@@ -219,29 +192,17 @@ class StencilTechnique final : public GlTechnique {
     return gl::readPairs(scope, target.tilesTarget(), columns, rows);
   }
 
-  // As the graphics card has them: depths are not distances yet.
-  static shadow::SurfaceBuffer readSurface(const gl::HostScope& scope, const GpuFrame& target) {
-    return {gl::readIds(scope, target.surfaceTarget(), target.width(), target.height()),
-            gl::readDepth(scope, target.surfaceTarget(), target.width(), target.height())};
-  }
-
   // What the lit passes need to know of a light, and how far away its receivers are.
   Result<std::optional<ReceiverTiles>> addReceivers(gl::HostScope& scope, std::size_t index, const scene::Light& light,
                                                     const View& view, const scene::Camera& camera,
                                                     const VolumeOptions& volumes, GpuFrame& target,
                                                     const RunInput& input, const PhaseEnd& ended) {
     GpuLight& gpu = own_->lights[index];
-    const scene::Surfaces& surfaces = geometry_->surfaces;
-    const Vec4 homogeneous = scene::homogeneous(light, surfaces.origin);
-    const auto facing = shadow::visibleSideFacesLight(surfaces, Vec4(view.eye - surfaces.origin, 1.0), homogeneous);
-    const ViewBlock viewData = viewBlock(view, surfaces.origin, homogeneous);
-    const ShadingBlock shading = withLight(shadingBlock(camera), camera, light);
-    for (const auto& done :
-         {gpu.view.setOne(viewData), gpu.shading.setOne(shading), gpu.facing.setAll(packBits(facing))})
-      if (!done) return tl::unexpected(done.error());
+    const auto facing = upload(gpu, geometry_->surfaces, view, camera, light);
+    if (!facing) return tl::unexpected(facing.error());
     if (ended) ended("facing");
     if (!volumes.hiddenParts) return std::nullopt;
-    const auto depths = tileDepths(scope, index, facing, target, input);
+    const auto depths = tileDepths(scope, index, *facing, target, input);
     if (!depths) return tl::unexpected(depths.error());
     ReceiverTiles tiles(view, *depths, target.width(), target.height());
     if (ended) ended("tiles");
@@ -335,20 +296,6 @@ class StencilTechnique final : public GlTechnique {
         .litArea = gl::intersect(litArea(view, light, placement), boxArea(view, receivers, origin, placement)),
         .overflow = volumes.overflow,
         .depthBounds = bounds};
-  }
-
-  void readBack(const gl::HostScope& scope, const GpuFrame& target, const shadow::Frame& frame, shadow::Shading& out) {
-    const int width = frame.camera.width, height = frame.camera.height;
-    const View view = viewOf(frame.camera, geometry_->surfaces.bounds.radius());
-    out.surface = seen_ ? std::move(*seen_) : readSurface(scope, target);
-    seen_.reset();
-    image::GreyImage covered(width, height);
-    for (std::size_t i = 0; i < covered.size(); ++i) {
-      out.surface.depth.pixels()[i] = depthToDistance(view, out.surface.depth.pixels()[i]);
-      covered.pixels()[i] = out.surface.triangle.pixels()[i] != shadow::kNoTriangle ? 1 : 0;
-    }
-    for (std::size_t i = 0; i < frame.lights.size(); ++i)
-      out.masks.push_back({gl::readGrey(scope, target.maskTarget(i), width, height), {}, covered});
   }
 
   shadow::Traits traits_;

@@ -30,6 +30,8 @@ struct Traits {
   bool needsClosed = false;      ///< exact for closed casters only
   bool needsGraphics = false;    ///< runs on OpenGL
   int edgeTolerancePx = 1;       ///< pixels this near to a true edge may differ from the truth
+  /// Pixels may differ from the truth anywhere, fewer with more work: its error is a number to be measured, not a promise to be judged.
+  bool approximate = false;
 };
 
 /// The geometry a technique is prepared for.
@@ -125,6 +127,9 @@ struct LightStats {
   std::size_t volumeTriangles = 0;
   std::size_t castersByZFail = 0;  ///< components that fell back from z-pass
   int eyeCount = 0;
+  std::size_t planes = 0;      ///< that shadows were projected onto, by techniques that do so
+  std::size_t shadowMaps = 0;  ///< that were drawn, by techniques that look them up
+  std::size_t mapTexels = 0;   ///< of all of them
   std::string finder;  ///< who found the silhouette; empty when none was needed
   // What was left out, since it changes no pixel:
   std::size_t castersHidden = 0;   ///< components wholly in the shadow of a convex one
@@ -149,6 +154,8 @@ struct Shading {
   std::vector<LightMask> masks;
   VeilBuffer veils = {};  ///< before `surface`; only of techniques that are `tinted`
   FrameStats stats;
+  /// 1 where the technique knows no shadows on what is seen, so that the masks tell only whether it faces the light; empty: it knows them everywhere.
+  image::GreyImage unshadowed = {};
 };
 
 /// A way to compute shadows. prepare() once per geometry, shade() once per frame. Not thread-safe.

@@ -1,5 +1,8 @@
 #include "umbrage/techniques/gl/registry.hpp"
 
+#include "umbrage/techniques/gl/planar.hpp"
+#include "umbrage/techniques/gl/shadow_map.hpp"
+#include "umbrage/techniques/gl/shadow_map_perspective.hpp"
 #include "umbrage/techniques/gl/volumes_brute.hpp"
 #include "umbrage/techniques/gl/zfail.hpp"
 #include "umbrage/techniques/gl/zmixed.hpp"
@@ -10,10 +13,9 @@ namespace umbrage::techniques {
 namespace {
 
 using ContextSlot = std::shared_ptr<std::shared_ptr<gl::Context>>;
-using Maker = std::unique_ptr<render::GlTechnique> (*)(std::shared_ptr<gl::Context>, const render::VolumeOptions&);
-
-shadow::TechniqueEntry entry(shadow::Traits traits, Maker make, ContextSlot slot,
-                             const render::VolumeOptions& options) {
+// `make`: a maker of one technique, with its options.
+template <class Make, class Options>
+shadow::TechniqueEntry entry(shadow::Traits traits, Make make, ContextSlot slot, const Options& options) {
   return {std::move(traits), [make, slot, options]() -> Result<std::unique_ptr<shadow::Technique>> {
             if (*slot == nullptr) {
               auto context = gl::Context::createHeadless();
@@ -26,11 +28,14 @@ shadow::TechniqueEntry entry(shadow::Traits traits, Maker make, ContextSlot slot
 
 }  // namespace
 
-std::vector<shadow::TechniqueEntry> openGlTechniques(const render::VolumeOptions& options) {
+std::vector<shadow::TechniqueEntry> openGlTechniques(const render::VolumeOptions& options, const shadow::PlaneSearch& planes,
+                                                     const render::ShadowMapOptions& maps) {
   const auto slot = std::make_shared<std::shared_ptr<gl::Context>>();
   return {entry(zFailTraits(), makeZFail, slot, options), entry(zPassTraits(), makeZPass, slot, options),
           entry(zMixedTraits(), makeZMixed, slot, options), entry(zPassPlusTraits(), makeZPassPlus, slot, options),
-          entry(volumesBruteTraits(), makeVolumesBrute, slot, options)};
+          entry(volumesBruteTraits(), makeVolumesBrute, slot, options),
+          entry(planarTraits(), makePlanar, slot, planes), entry(shadowMapTraits(), makeShadowMap, slot, maps),
+          entry(perspectiveShadowMapTraits(), makePerspectiveShadowMap, slot, maps)};
 }
 
 }  // namespace umbrage::techniques

@@ -1,0 +1,49 @@
+#version 450 core
+// One light's share of the picture by its mask, added to the others: mask x colour x intensity x cosine, flat, two-sided.
+layout(std140, binding = 0) uniform View {
+  mat4 toClip;     // from (position - eye, w)
+  vec4 eyeHigh;    // the eye in two floats a component, so that position - eye is exact near the eye
+  vec4 eyeLow;
+  vec4 lightHigh;  // the light likewise; w = 0: the direction towards it
+  vec4 lightLow;
+};
+layout(std430, binding = 0) readonly buffer Positions { float position[]; };
+
+vec3 positionOf(uint i) { return vec3(position[3u * i], position[3u * i + 1u], position[3u * i + 2u]); }
+layout(std140, binding = 1) uniform Shading {
+  vec4 rayCorner;   // the ray through window coordinates (x, y): rayCorner + x * rayX + y * rayY, relative to the eye
+  vec4 rayX;
+  vec4 rayY;
+  vec4 light;       // relative to the eye; w = 0: the direction towards it
+  vec4 radiance;    // linear colour x intensity
+  vec4 cone;        // a spot's direction and the cosine of its cutoff; w below -1: no cone
+  vec4 sky;         // up, and the ambient light
+  vec4 background;  // sRGB
+};
+layout(binding = 0) uniform usampler2D ids;
+layout(binding = 1) uniform sampler2D mask;
+const uint kNone = 0xffffffffu;
+layout(std430, binding = 1) readonly buffer Triangles { vec4 triangle[]; };  // unit normal; material as the bits of w
+layout(std430, binding = 2) readonly buffer Corners { uint corner[]; };
+
+// Where the ray meets the plane of the triangle: exact to rounding at any distance, which a depth buffer is not.
+vec3 seenPoint(uint id, vec3 ray) {
+  vec3 a = (positionOf(corner[3u * id]) - eyeHigh.xyz) - eyeLow.xyz;
+  float slope = dot(triangle[id].xyz, ray);
+  return slope != 0.0 ? ray * (dot(triangle[id].xyz, a) / slope) : a;
+}
+
+layout(std430, binding = 4) readonly buffer Materials { vec4 material[]; };  // linear colour
+
+layout(location = 0) out vec4 share;
+
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  uint id = texelFetch(ids, at, 0).r;
+  float reaches = texelFetch(mask, at, 0).r;
+  if (id == kNone || reaches == 0.0) discard;
+  vec3 ray = rayCorner.xyz + gl_FragCoord.x * rayX.xyz + gl_FragCoord.y * rayY.xyz;
+  vec3 towards = light.xyz - light.w * seenPoint(id, ray);
+  float cosine = abs(dot(triangle[id].xyz, normalize(towards)));
+  share = vec4(material[floatBitsToUint(triangle[id].w)].rgb * radiance.rgb * (reaches * cosine), 1.0);
+}

@@ -1,0 +1,3 @@
+#version 450 core
+// Only the stencil is written.
+void main() {}
