@@ -1,5 +1,6 @@
 #include "umbrage/techniques/gl/registry.hpp"
 
+#include "umbrage/techniques/gl/transparent.hpp"
 #include "umbrage/techniques/gl/zfail.hpp"
 #include "umbrage/techniques/gl/zmixed.hpp"
 #include "umbrage/techniques/gl/zp_plus.hpp"
@@ -28,7 +29,9 @@ shadow::TechniqueEntry entry(shadow::Traits traits, Maker make, ContextSlot slot
 std::vector<shadow::TechniqueEntry> openGlTechniques(const render::VolumeOptions& options) {
   const auto slot = std::make_shared<std::shared_ptr<gl::Context>>();
   return {entry(zFailTraits(), makeZFail, slot, options), entry(zPassTraits(), makeZPass, slot, options),
-          entry(zMixedTraits(), makeZMixed, slot, options), entry(zPassPlusTraits(), makeZPassPlus, slot, options)};
+          entry(zMixedTraits(), makeZMixed, slot, options), entry(zPassPlusTraits(), makeZPassPlus, slot, options),
+          entry(transparentTraits(), makeTransparent, slot, options),
+          entry(transparentZFailTraits(), makeTransparentZFail, slot, options)};
 }
 
 }  // namespace umbrage::techniques
