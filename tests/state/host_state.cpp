@@ -17,7 +17,7 @@ struct Named {
   Named { what, #what }
 
 // More of each kind than the house uses, so that touching a neighbour would be seen.
-constexpr int kSlots = 10, kUnits = 6, kDrawBuffers = 3, kViewports = 3;
+constexpr int kSlots = 10, kUnits = 12, kDrawBuffers = 8, kViewports = 3;
 
 const std::vector<Named> kSwitches{UMBRAGE_NAMED(GL_DEPTH_TEST),
                                    UMBRAGE_NAMED(GL_DEPTH_CLAMP),

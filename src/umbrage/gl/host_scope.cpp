@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "umbrage/base/check.hpp"
+#include "umbrage/gl/objects.hpp"
 
 namespace umbrage::gl {
 namespace {
@@ -44,8 +45,8 @@ constexpr std::array kSwitches{GL_DEPTH_TEST,
 constexpr std::array kOnSwitches{GL_MULTISAMPLE};
 // These act on shaders' output in a compatibility context and do not exist in a core one.
 constexpr std::array kCompatibilitySwitches{GL_ALPHA_TEST, GL_POLYGON_STIPPLE};
-// With glEnablei and glDisablei, index 0 only: other viewports and draw buffers are the host's own business.
-constexpr std::array kIndexedSwitches{GL_BLEND, GL_SCISSOR_TEST};
+// With glEnablei and glDisablei, index 0 only: other viewports are the host's own business.
+constexpr std::array kIndexedSwitches{GL_SCISSOR_TEST};
 
 constexpr std::array kPackSettings{GL_PACK_SWAP_BYTES,  GL_PACK_LSB_FIRST, GL_PACK_ROW_LENGTH,   GL_PACK_SKIP_ROWS,
                                    GL_PACK_SKIP_PIXELS, GL_PACK_ALIGNMENT, GL_PACK_IMAGE_HEIGHT, GL_PACK_SKIP_IMAGES};
@@ -116,15 +117,29 @@ struct BlendState {
   GLint sourceRgb, targetRgb, sourceAlpha, targetAlpha, equationRgb, equationAlpha;
 };
 
-BlendState blendState() {
-  return {integer(GL_BLEND_SRC_RGB, 0),   integer(GL_BLEND_DST_RGB, 0),      integer(GL_BLEND_SRC_ALPHA, 0),
-          integer(GL_BLEND_DST_ALPHA, 0), integer(GL_BLEND_EQUATION_RGB, 0), integer(GL_BLEND_EQUATION_ALPHA, 0)};
+// What becomes of what is drawn into one colour picture.
+struct ColourState {
+  GLboolean isBlended = GL_FALSE;
+  BlendState blend{};
+  std::array<GLboolean, 4> mask{};
+};
+
+ColourState colourState(GLuint i) {
+  ColourState state;
+  state.isBlended = glIsEnabledi(GL_BLEND, i);
+  state.blend = {integer(GL_BLEND_SRC_RGB, i),   integer(GL_BLEND_DST_RGB, i),      integer(GL_BLEND_SRC_ALPHA, i),
+                 integer(GL_BLEND_DST_ALPHA, i), integer(GL_BLEND_EQUATION_RGB, i), integer(GL_BLEND_EQUATION_ALPHA, i)};
+  glGetBooleani_v(GL_COLOR_WRITEMASK, i, state.mask.data());
+  return state;
 }
 
-void set(const BlendState& b) {
+void set(GLuint i, const ColourState& s) {
   const auto e = [](GLint v) { return static_cast<GLenum>(v); };
-  glBlendFuncSeparatei(0, e(b.sourceRgb), e(b.targetRgb), e(b.sourceAlpha), e(b.targetAlpha));
-  glBlendEquationSeparatei(0, e(b.equationRgb), e(b.equationAlpha));
+  const BlendState& b = s.blend;
+  turn(GL_BLEND, i, s.isBlended == GL_TRUE);
+  glBlendFuncSeparatei(i, e(b.sourceRgb), e(b.targetRgb), e(b.sourceAlpha), e(b.targetAlpha));
+  glBlendEquationSeparatei(i, e(b.equationRgb), e(b.equationAlpha));
+  glColorMaski(i, s.mask[0], s.mask[1], s.mask[2], s.mask[3]);
 }
 
 int attachmentBits(GLuint framebuffer, GLenum ofWindow, GLenum ofFramebuffer, GLenum what) {
@@ -163,12 +178,11 @@ struct HostScope::State {
   std::array<GLfloat, 4> viewport{};
   std::array<GLint, 4> scissor{};
   std::array<GLdouble, 2> depthRange{};
-  std::array<GLboolean, 4> colourMask{};
+  std::array<ColourState, kColourTargets> colours;
   std::array<GLint, 2> polygonMode{};
   GLint depthFunc = integer(GL_DEPTH_FUNC);
   GLboolean depthMask = GL_TRUE;
   StencilFaceState front = stencilFront(), back = stencilBack();
-  BlendState blend = blendState();
   GLint cullFace = integer(GL_CULL_FACE_MODE);
   GLint frontFace = integer(GL_FRONT_FACE);
   GLint clipOrigin = integer(GL_CLIP_ORIGIN);
@@ -201,7 +215,7 @@ HostScope::State::State() {
   glGetFloati_v(GL_VIEWPORT, 0, viewport.data());
   glGetIntegeri_v(GL_SCISSOR_BOX, 0, scissor.data());
   glGetDoublei_v(GL_DEPTH_RANGE, 0, depthRange.data());
-  glGetBooleani_v(GL_COLOR_WRITEMASK, 0, colourMask.data());
+  for (GLuint i = 0; i < colours.size(); ++i) colours[i] = colourState(i);
   glGetIntegerv(GL_POLYGON_MODE, polygonMode.data());
   glGetBooleanv(GL_DEPTH_WRITEMASK, &depthMask);
   if (!knowsDepthBounds) return;
@@ -242,7 +256,7 @@ void HostScope::State::restoreFixedFunctions() const {
   glViewportIndexedf(0, viewport[0], viewport[1], viewport[2], viewport[3]);
   glScissorIndexed(0, scissor[0], scissor[1], scissor[2], scissor[3]);
   glDepthRangeIndexed(0, depthRange[0], depthRange[1]);
-  glColorMaski(0, colourMask[0], colourMask[1], colourMask[2], colourMask[3]);
+  for (GLuint i = 0; i < colours.size(); ++i) set(i, colours[i]);
   if (compatibility && polygonMode[0] != polygonMode[1]) {
     glPolygonMode(GL_FRONT, static_cast<GLenum>(polygonMode[0]));
     glPolygonMode(GL_BACK, static_cast<GLenum>(polygonMode[1]));
@@ -257,7 +271,6 @@ void HostScope::State::restoreFixedFunctions() const {
   }
   set(GL_FRONT, front);
   set(GL_BACK, back);
-  set(blend);
   glCullFace(static_cast<GLenum>(cullFace));
   glFrontFace(static_cast<GLenum>(frontFace));
   glClipControl(static_cast<GLenum>(clipOrigin), static_cast<GLenum>(clipDepth));

@@ -2,6 +2,8 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
 
 #include "umbrage/base/check.hpp"
@@ -102,15 +104,23 @@ Result<Texture> Texture::make(Format format, int width, int height) {
 }
 
 Result<Framebuffer> Framebuffer::make(const Texture* colour, const Texture* depth) {
+  return make(std::span(&colour, colour != nullptr ? 1 : 0), depth);
+}
+
+Result<Framebuffer> Framebuffer::make(std::span<const Texture* const> colours, const Texture* depth) {
+  UMBRAGE_CHECK(colours.size() <= kColourTargets, "more colour pictures than any driver draws into");
   GLuint name = 0;
   glCreateFramebuffers(1, &name);
   Framebuffer framebuffer;
   framebuffer.handle_ = Handle(Handle::Kind::framebuffer, name);
-  const GLenum draw = colour != nullptr ? GL_COLOR_ATTACHMENT0 : GL_NONE;
-  if (colour != nullptr) glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, colour->name(), 0);
+  std::array<GLenum, kColourTargets> draw{GL_NONE};
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    draw[i] = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);
+    glNamedFramebufferTexture(name, draw[i], colours[i]->name(), 0);
+  }
   if (depth != nullptr) glNamedFramebufferTexture(name, attachment(depth->format()), depth->name(), 0);
-  glNamedFramebufferDrawBuffer(name, draw);
-  glNamedFramebufferReadBuffer(name, draw);
+  glNamedFramebufferDrawBuffers(name, std::max<GLsizei>(1, static_cast<GLsizei>(colours.size())), draw.data());
+  glNamedFramebufferReadBuffer(name, draw[0]);
   const GLenum status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
     return fail(ErrorCode::device, "the driver refuses a framebuffer (status " + std::to_string(status) + ")");

@@ -82,12 +82,17 @@ class Texture {
   int width_ = 0, height_ = 0;
 };
 
-/// One colour picture (optional) and one picture of depth, with or without a stencil (optional), to draw into.
+/// Every driver of OpenGL 4.5 draws into so many colour pictures at once.
+inline constexpr int kColourTargets = 8;
+
+/// Colour pictures and one picture of depth, with or without a stencil (each optional), to draw into.
 class Framebuffer {
  public:
   Framebuffer() = default;
   /// Errors: ErrorCode::device when the driver finds the combination incomplete. REQUIRES: the textures outlive it.
   [[nodiscard]] static Result<Framebuffer> make(const Texture* colour, const Texture* depth);
+  /// Several of one size, at the locations 0, 1, ... of fragment shaders. REQUIRES: at most kColourTargets.
+  [[nodiscard]] static Result<Framebuffer> make(std::span<const Texture* const> colours, const Texture* depth);
   [[nodiscard]] unsigned name() const { return handle_.name(); }
 
  private:

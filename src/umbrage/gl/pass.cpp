@@ -57,10 +57,15 @@ void apply(const StencilState& stencil) {
   glStencilOpSeparate(GL_BACK, GL_KEEP, code(stencil.back.depthFail), code(stencil.back.pass));
 }
 
-void apply(Blend blend) {
-  blend == Blend::off ? glDisablei(GL_BLEND, 0) : glEnablei(GL_BLEND, 0);
-  glBlendEquationi(0, GL_FUNC_ADD);
-  glBlendFunci(0, GL_ONE, blend == Blend::over ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
+void applyColour(const PassState& state) {
+  UMBRAGE_CHECK(state.colourTargets >= 1 && state.colourTargets <= kColourTargets, "HostScope does not save so many");
+  const GLboolean write = state.colourWrite ? GL_TRUE : GL_FALSE;
+  for (GLuint i = 0; i < static_cast<GLuint>(state.colourTargets); ++i) {
+    state.blend == Blend::off ? glDisablei(GL_BLEND, i) : glEnablei(GL_BLEND, i);
+    glBlendEquationi(i, GL_FUNC_ADD);
+    glBlendFunci(i, GL_ONE, state.blend == Blend::over ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
+    glColorMaski(i, write, write, write, write);
+  }
 }
 
 // The extension's state is left alone where there is none.
@@ -75,9 +80,7 @@ void apply(const PassState& state, bool knowsDepthBounds) {
   applyBounds(state.depthBounds, knowsDepthBounds);
   apply(state.depth);
   apply(state.stencil);
-  apply(state.blend);
-  const GLboolean colour = state.colourWrite ? GL_TRUE : GL_FALSE;
-  glColorMaski(0, colour, colour, colour, colour);
+  applyColour(state);
   turn(GL_CULL_FACE, state.cullBack);
   UMBRAGE_CHECK(state.clipDistances >= 0 && state.clipDistances <= kMostClipDistances, "so many clip distances");
   for (int i = 0; i < kMostClipDistances; ++i) turn(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i), i < state.clipDistances);
@@ -111,7 +114,9 @@ Pass::~Pass() {
   scope_.inPass_ = false;
 }
 
-void Pass::clearColour(const std::array<float, 4>& value) { glClearBufferfv(GL_COLOR, 0, value.data()); }
+void Pass::clearColour(const std::array<float, 4>& value, int picture) {
+  glClearBufferfv(GL_COLOR, picture, value.data());
+}
 
 void Pass::clearIds(std::uint32_t value) {
   const std::array<GLuint, 4> all{value, value, value, value};
@@ -159,6 +164,8 @@ void Pass::drawIndirect(const VertexArray& vertices, const Buffer& draws, std::s
   glDrawElementsIndirect(code(primitive), GL_UNSIGNED_INT,
                          reinterpret_cast<const void*>(which * sizeof(IndirectDraw)));
 }
+
+void Pass::publishStorage() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT); }
 
 void Pass::draw(const VertexArray& vertices, std::size_t vertexCount) {
   glBindVertexArray(vertices.name());

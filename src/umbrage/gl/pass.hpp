@@ -33,7 +33,7 @@ class Pass {
   ~Pass();
 
   // Clears obey the scissor, and the write masks of the state.
-  void clearColour(const std::array<float, 4>& value);
+  void clearColour(const std::array<float, 4>& value, int picture = 0);
   void clearIds(std::uint32_t value);
   void clearDepth(float value);
   void clearStencil(std::uint8_t value);
@@ -48,6 +48,8 @@ class Pass {
   /// The same with the numbers of entry `which` of a buffer of IndirectDraw; sees what Compute wrote.
   void drawIndirect(const VertexArray& vertices, const Buffer& draws, std::size_t which,
                     Primitive primitive = Primitive::triangles);
+  /// What shaders of this pass wrote into storage is seen by those of later passes, by Compute and by Buffer::read.
+  void publishStorage();
   /// Triangles without a buffer.
   void draw(const VertexArray& vertices, std::size_t vertexCount);
 

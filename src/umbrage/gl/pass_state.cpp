@@ -71,6 +71,7 @@ Rect intersect(const Rect& a, const Rect& b) {
 std::string describe(const PassState& state) {
   std::string out = text(state.depth) + text(state.stencil);
   if (state.colourWrite) out += "; colour";
+  if (state.colourTargets > 1) out += " in " + std::to_string(state.colourTargets) + " pictures";
   if (state.blend == Blend::add) out += " added";
   if (state.blend == Blend::over) out += " over";
   if (state.cullBack) out += "; back faces culled";

@@ -57,6 +57,7 @@ struct PassState {
   StencilState stencil;
   Blend blend = Blend::off;
   bool colourWrite = false;
+  int colourTargets = 1;  ///< so many of the target's colour pictures are written, and blended, alike
   bool cullBack = false;
   bool frontIsClockwise = false;  ///< for views that mirror
   ClipDepth clipDepth = ClipDepth::zeroToOne;

@@ -49,6 +49,40 @@ Result<void> GpuFrame::needMaskSum() {
   return add(maskSum_, maskSumTarget_, gl::Format::rgba32f, width(), height(), nullptr);
 }
 
+Result<void> GpuFrame::needTints() {
+  if (tints_.opaque.name() != 0) return {};
+  return addSums(0, tints_.opaque, &tints_.bare);
+}
+
+Result<void> GpuFrame::needLayers() {
+  if (tints_.layers.name() != 0) return {};
+  if (auto done = add(tints_.depths, tints_.depthsTarget, gl::Format::rg32f, width(), height(), &depthStencil_); !done)
+    return done;
+  return addSums(TintTargets::kPairs, tints_.layers, nullptr);
+}
+
+// The sums from `first` on, and a target of all up to them.
+Result<void> GpuFrame::addSums(std::size_t first, gl::Framebuffer& target, gl::Framebuffer* bare) {
+  std::vector<const gl::Texture*> colours;
+  for (std::size_t i = 0; i < first + TintTargets::kPairs; ++i) {
+    if (i >= first) {
+      auto made = gl::Texture::make(gl::Format::rg32f, width(), height());
+      if (!made) return tl::unexpected(made.error());
+      tints_.sums[i] = std::move(*made);
+    }
+    colours.push_back(&tints_.sums[i]);
+  }
+  if (bare != nullptr) {
+    auto made = gl::Framebuffer::make(colours[0], nullptr);
+    if (!made) return tl::unexpected(made.error());
+    *bare = std::move(*made);
+  }
+  auto made = gl::Framebuffer::make(colours, &depthStencil_);
+  if (!made) return tl::unexpected(made.error());
+  target = std::move(*made);
+  return {};
+}
+
 Result<void> GpuFrame::needPicture() {
   if (sum_.name() != 0) return {};
   if (auto done = add(picture_, pictureTarget_, gl::Format::rgba8, width(), height(), nullptr); !done) return done;

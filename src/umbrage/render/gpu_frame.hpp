@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -10,6 +11,16 @@ namespace umbrage::render {
 /// Pixels a side of a tile in which receivers are summed up.
 inline constexpr int kTile = 16;
 [[nodiscard]] constexpr int tilesFor(int pixels) { return (pixels + kTile - 1) / kTile; }
+
+/// Where shadow volumes sum up what casters take from the light, in pairs of channels that tinted_volume.frag tells.
+struct TintTargets {
+  static constexpr std::size_t kPairs = 4;     ///< per surface of a pixel
+  static constexpr std::size_t kSurfaces = 2;  ///< at once; the second with `layers` alone
+  std::array<gl::Texture, kSurfaces * kPairs> sums;
+  gl::Texture depths;                  ///< of two veils
+  gl::Framebuffer opaque, layers;      ///< one surface, and two; with depth and stencil
+  gl::Framebuffer depthsTarget, bare;  ///< with depth and stencil; one picture without depth, for what only writes storage
+};
 
 /// The pictures that a frame is drawn into, of one size: triangle ids with depth and stencil; the tiles of a light's receivers, a mask
 /// per light and the lit picture when they are asked for. REQUIRES: its context is current when it is made, used and destroyed.
@@ -22,6 +33,9 @@ class GpuFrame {
   [[nodiscard]] Result<void> needTiles();
   /// Room for the mean of many masks.
   [[nodiscard]] Result<void> needMaskSum();
+  [[nodiscard]] Result<void> needTints();
+  /// What two veils need beside the opaque surface. REQUIRES: needTints().
+  [[nodiscard]] Result<void> needLayers();
 
   [[nodiscard]] int width() const { return depthStencil_.width(); }
   [[nodiscard]] int height() const { return depthStencil_.height(); }
@@ -34,6 +48,8 @@ class GpuFrame {
   [[nodiscard]] const gl::Texture& sum() const { return sum_; }
   /// The finished picture, sRGB-encoded RGBA8, row 0 at the bottom: for a host to show.
   [[nodiscard]] const gl::Texture& picture() const { return picture_; }
+
+  [[nodiscard]] const TintTargets& tints() const { return tints_; }
 
   [[nodiscard]] const gl::Framebuffer& surfaceTarget() const { return surfaceTarget_; }
   [[nodiscard]] const gl::Framebuffer& stencilTarget() const { return stencilTarget_; }
@@ -49,8 +65,10 @@ class GpuFrame {
     gl::Framebuffer target;
   };
   GpuFrame() = default;
+  [[nodiscard]] Result<void> addSums(std::size_t first, gl::Framebuffer& target, gl::Framebuffer* bare);
   gl::Texture ids_, depthStencil_, tiles_, maskSum_, sum_, picture_;
   std::vector<Mask> masks_;
+  TintTargets tints_;
   gl::Framebuffer surfaceTarget_, stencilTarget_, tilesTarget_, maskSumTarget_, sumTarget_, pictureTarget_;
 };
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "umbrage/gl/quirks.hpp"
-#include "umbrage/render/large_triangles.hpp"
 
 namespace umbrage::render {
 namespace {
@@ -37,14 +36,10 @@ Result<GpuScene> GpuScene::make(const scene::Surfaces& surfaces) {
                            setStorage(scene.corners_, std::as_bytes(std::span(surfaces.triangles)), "triangles"),
                            setStorage(scene.triangles_, std::as_bytes(std::span(shading)), "triangles")})
     if (!done) return tl::unexpected(done.error());
-  scene.vertices_ = gl::VertexArray(scene.drawn_);
-  scene.largeVertices_ = gl::VertexArray(scene.largeDrawn_);
   return scene;
 }
 
-Result<void> GpuScene::arrangeFor(const shadow::Geometry& geometry, const View& view, int width, int height) {
-  Arrangement arrangement = arrange(geometry, view, width, height);
-  const std::vector<mesh::Triangle>& triangles = geometry.surfaces.triangles;
+Result<void> DrawnTriangles::set(const std::vector<mesh::Triangle>& triangles, Arrangement arrangement) {
   std::vector<mesh::Triangle> large;
   for (const LargeTriangle& t : arrangement.large) large.push_back(triangles[t.id]);
   largeIndexCount_ = 3 * large.size();
@@ -58,6 +53,17 @@ Result<void> GpuScene::arrangeFor(const shadow::Geometry& geometry, const View& 
   indexCount_ = 3 * drawn.size();
   if (auto done = setStorage(ids_, std::as_bytes(std::span(ordinary_)), "triangles"); !done) return done;
   return drawn_.setAll(drawn);
+}
+
+Result<void> GpuScene::arrangeFor(const shadow::Geometry& geometry, const View& view, int width, int height) {
+  return drawn_.set(geometry.surfaces.triangles, arrange(geometry, view, width, height));
+}
+
+Result<void> GpuScene::arrangeApart(const shadow::Geometry& geometry, const View& view, int width, int height) {
+  const std::vector<mesh::Triangle>& triangles = geometry.surfaces.triangles;
+  if (auto done = drawn_.set(triangles, arrange(geometry, view, width, height, Drawn::opaque)); !done) return done;
+  if (geometry.filters.empty()) return {};
+  return veils_.set(triangles, arrange(geometry, view, width, height, Drawn::veils));
 }
 
 }  // namespace umbrage::render

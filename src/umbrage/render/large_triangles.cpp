@@ -8,6 +8,7 @@
 
 #include "umbrage/math/predicates.hpp"
 #include "umbrage/shadow/averted_faces.hpp"
+#include "umbrage/shadow/tinted_silhouette.hpp"
 
 namespace umbrage::render {
 namespace {
@@ -63,9 +64,22 @@ class Outcodes {
   double wide_, high_;
 };
 
+// Per surface: 1 when it is not to be drawn, or surely hidden by others of the same solid.
+std::vector<std::uint8_t> notDrawn(const shadow::Geometry& geometry, const Vec3& eye, Drawn drawn) {
+  std::vector<std::uint8_t> out = shadow::avertedFaces(geometry, eye);
+  if (drawn == Drawn::all) return out;
+  const shadow::CasterSet& casters = geometry.casters;
+  const std::vector<std::uint8_t> veiled = shadow::veiledComponents(casters, geometry.filters);
+  for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
+    if (veiled[casters.componentOf[t]] != 0) out[casters.surfaceTriangle[t]] = 0;
+  for (std::uint32_t t = 0; t < out.size(); ++t)
+    if (geometry.filters.isVeil(t) != (drawn == Drawn::veils)) out[t] = 1;
+  return out;
+}
+
 }  // namespace
 
-Arrangement arrange(const shadow::Geometry& geometry, const View& view, int width, int height) {
+Arrangement arrange(const shadow::Geometry& geometry, const View& view, int width, int height, Drawn drawn) {
   const scene::Surfaces& surfaces = geometry.surfaces;
   const Vec3 eye = view.eye - surfaces.origin;
   const Vec3 forward(view.toClip[0][3], view.toClip[1][3], view.toClip[2][3]);
@@ -73,11 +87,11 @@ Arrangement arrange(const shadow::Geometry& geometry, const View& view, int widt
   std::vector<std::uint8_t> code;
   code.reserve(surfaces.positions.size());
   for (const Vec3f& p : surfaces.positions) code.push_back(outcodes.of(Vec3(p) - eye));
-  const std::vector<std::uint8_t> averted = shadow::avertedFaces(geometry, eye);
+  const std::vector<std::uint8_t> leftOut = notDrawn(geometry, eye, drawn);
   Arrangement out;
   for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t) {
     const mesh::Triangle& corners = surfaces.triangles[t];
-    if (averted[t] != 0 || (code[corners[0]] & code[corners[1]] & code[corners[2]]) != 0) continue;
+    if (leftOut[t] != 0 || (code[corners[0]] & code[corners[1]] & code[corners[2]]) != 0) continue;
     const Vec3 a = surfaces.corner(t, 0), b = surfaces.corner(t, 1), c = surfaces.corner(t, 2);
     if (liesInPlane(a, b, c, eye)) continue;
     const Seen seen(a - eye, b - eye, c - eye, forward);

@@ -29,7 +29,12 @@ struct Arrangement {
   std::vector<LargeTriangle> large;
 };
 
-/// A view of `width` x `height` pixels. REQUIRES: view is one of viewOf(Camera).
-[[nodiscard]] Arrangement arrange(const shadow::Geometry& geometry, const View& view, int width, int height);
+/// Which surfaces: to most techniques all are opaque.
+enum class Drawn { all, opaque, veils };
+
+/// A view of `width` x `height` pixels. Of solids with veils averted faces are not left out but where all are drawn as opaque: they are seen.
+/// REQUIRES: view is one of viewOf(Camera).
+[[nodiscard]] Arrangement arrange(const shadow::Geometry& geometry, const View& view, int width, int height,
+                                  Drawn drawn = Drawn::all);
 
 }  // namespace umbrage::render

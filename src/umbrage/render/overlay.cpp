@@ -170,7 +170,7 @@ Result<image::RgbaImage> drawLayer(const std::vector<Mark>& marks, const View& v
     pass.clearColour({0.0f, 0.0f, 0.0f, 0.0f});
     pass.use(program);
     pass.storage(0, markData);
-    pass.draw(gpuScene->vertices(), marks.size());
+    pass.draw(gpuScene->drawn().vertices(), marks.size());
   }
   return gl::readRgba(scope, frame->sumTarget(), camera.width, camera.height);
 }

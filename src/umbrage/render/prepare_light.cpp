@@ -6,9 +6,9 @@
 
 #include "umbrage/base/check.hpp"
 #include "umbrage/render/carry.hpp"
+#include "umbrage/render/detail/volume_shape.hpp"
 #include "umbrage/render/near_rectangle.hpp"
 #include "umbrage/shadow/each_by_itself.hpp"
-#include "umbrage/shadow/finders/threads.hpp"
 #include "umbrage/shadow/hidden_casters.hpp"
 #include "umbrage/shadow/layering.hpp"
 
@@ -24,7 +24,8 @@ IndexRange append(std::vector<std::uint32_t>& indices, std::vector<std::uint32_t
   return range;
 }
 
-using Components = std::vector<std::uint8_t>;  // a flag for each
+using detail::Components;
+using Shape = detail::VolumeShape;
 
 // What is counted together, before it is extruded.
 struct Part {
@@ -32,56 +33,9 @@ struct Part {
   shadow::EyeCount atEye;  // for z-fail: only which components the eye touches
 };
 
-// Where volumes end, and what of them matters.
-class Shape {
- public:
-  explicit Shape(const VolumeRequest& request) : request_(request) {}
-
-  // What the eye touches has no end: of corners around the eye, those at infinity are the ones that rounding harms least.
-  void endVolumes(const Components& atEye) {
-    if (!request_.options.finite) return;
-    Box3 room = request_.receivers;
-    room.add(request_.eye);
-    reach_ = shadow::reachWithin(request_.casters(), request_.light, room, atEye);
-  }
-
-  // No receiver that can be seen lies in a volume that is behind them all, or before them all.
-  [[nodiscard]] bool holdsReceivers(std::uint32_t component) const {
-    const Box3& box = request_.casters().componentBounds[component];
-    std::array<Vec4, 16> hull;
-    for (std::size_t i = 0; i < 8; ++i) {
-      const Vec3 corner((i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
-                        (i & 4) != 0 ? box.max.z : box.min.z);
-      hull[i] = relative(Vec4(corner, 1.0));
-      hull[8 + i] = relative(farEnd(component, corner));
-    }
-    return !request_.tiles->behindAll(hull) && !request_.tiles->beforeAll(hull);
-  }
-
-  // Whether z-pass may count fragments of a side.
-  [[nodiscard]] bool mayCount(const shadow::SilhouetteEdge& edge) const {
-    const Vec3 a = request_.casters().position(edge.a), b = request_.casters().position(edge.b);
-    const std::array<Vec4, 4> hull{relative(Vec4(a, 1.0)), relative(Vec4(b, 1.0)), relative(farEnd(edge.component, a)),
-                                   relative(farEnd(edge.component, b))};
-    return !request_.tiles->behindAll(hull);
-  }
-
-  [[nodiscard]] const shadow::Reach* reach() const { return request_.options.finite ? &reach_ : nullptr; }
-
- private:
-  [[nodiscard]] Vec4 relative(const Vec4& p) const { return p - Vec4(request_.eye * p.w, 0.0); }
-  [[nodiscard]] Vec4 farEnd(std::uint32_t component, const Vec3& corner) const {
-    if (request_.options.finite) return shadow::farPoint(reach_, component, corner, request_.light);
-    return {corner * request_.light.w - Vec3(request_.light), 0.0};
-  }
-
-  const VolumeRequest& request_;
-  shadow::Reach reach_;
-};
-
-bool dropsParts(const VolumeRequest& request) { return request.tiles != nullptr && request.options.hiddenParts; }
-
-constexpr std::uint32_t kComponentsWorthThreads = 1024;
+detail::VolumeShape shapeOf(const VolumeRequest& request) {
+  return detail::VolumeShape({request.casters(), request.light, request.eye, request.options, request.receivers, request.tiles});
+}
 
 // For LightStats::choices, where they are wanted: what became of the components that are flagged.
 void tell(shadow::LightStats& stats, const Components& flags, shadow::CasterChoice choice) {
@@ -102,11 +56,8 @@ void beginChoices(const VolumeRequest& request, shadow::LightStats& stats) {
 Components findUseless(const VolumeRequest& request, const Shape& shape, shadow::LightStats& stats) {
   const shadow::CasterSet& casters = request.casters();
   Components useless(casters.componentCount, 0);
-  if (dropsParts(request)) {
-    const unsigned threads = casters.componentCount >= kComponentsWorthThreads ? shadow::threadCount(0) : 1;
-    shadow::inParts(casters.componentCount, 64, threads, [&](unsigned, std::size_t begin, std::size_t end) {
-      for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) useless[c] = shape.holdsReceivers(c) ? 0 : 1;
-    });
+  if (shape.dropsParts()) {
+    useless = shape.withoutReceivers();
     stats.castersBehind = static_cast<std::size_t>(std::count(useless.begin(), useless.end(), 1));
     tell(stats, useless, shadow::CasterChoice::noReceiver);
   }
@@ -203,9 +154,9 @@ std::vector<std::uint32_t> passSides(const VolumeRequest& request, const Part& p
   if (part.atEye.byZFailCount > 0)
     for (const std::uint8_t fallen : part.atEye.byZFail) chosen.push_back(fallen == 0 ? 1 : 0);
   shadow::ExtrudeOptions options{.caps = false, .components = chosen, .reach = shape.reach(), .keepSide = {}, .sidesAsEdges = sidesAsEdges(request)};
-  if (dropsParts(request))
+  if (shape.dropsParts())
     options.keepSide = [&](const shadow::SilhouetteEdge& edge) {
-      const bool keep = shape.mayCount(edge);
+      const bool keep = shape.mayCount(edge.a, edge.b, edge.component);
       stats.sidesBehind += !keep;
       return keep;
     };
@@ -287,7 +238,7 @@ LightVolume prepareVolume(const VolumeRequest& request, shadow::LightStats& stat
   end("silhouette");
 
   beginChoices(request, stats);
-  Shape shape(request);
+  Shape shape = shapeOf(request);
   shape.endVolumes(request.options.finite ? shadow::sidesAtEye(casters, whole, request.eye) : Components());
   whole = shadow::without(casters, std::move(whole), findUseless(request, shape, stats));
   end("useless");
@@ -326,7 +277,7 @@ LightVolume prepareOnCard(const VolumeRequest& request, shadow::LightStats& stat
   LightVolume out{.light = request.light, .counting = request.counting};
   out.groups.emplace_back();
   beginChoices(request, stats);
-  Shape shape(request);
+  Shape shape = shapeOf(request);
   const Components between = shadow::boxesBetween(casters, request.light, request.eye);
   shape.endVolumes(between);
   if (request.counting != Counting::zFail) tell(stats, between, shadow::CasterChoice::zFailBetween);

@@ -101,13 +101,13 @@ void draw(gl::Pass& pass, const PassStep& step, const RunInput& input, const Gpu
   switch (step.draw) {
     case Draw::nothing: break;
     case Draw::surfaces:
-      pass.storage(1, input.scene->ids());
-      pass.drawIndexed(input.scene->vertices(), 0, input.scene->indexCount());
+      pass.storage(1, input.scene->drawn().ids());
+      pass.drawIndexed(input.scene->drawn().vertices(), 0, input.scene->drawn().indexCount());
       break;
     case Draw::largeSurfaces:
       pass.uniforms(1, *input.shading);
-      pass.storage(1, input.scene->largeTriangles());
-      pass.drawIndexed(input.scene->largeVertices(), 0, input.scene->largeIndexCount());
+      pass.storage(1, input.scene->drawn().largeTriangles());
+      pass.drawIndexed(input.scene->drawn().largeVertices(), 0, input.scene->drawn().largeIndexCount());
       break;
     case Draw::nearCasters: volume(light->groups[group].nearCasters); break;
     case Draw::passSides: part(CardVolume::passSides, light->groups[group].passSides); break;
@@ -116,7 +116,7 @@ void draw(gl::Pass& pass, const PassStep& step, const RunInput& input, const Gpu
     case Draw::failCaps: part(CardVolume::failCaps, light->groups[group].failCaps); break;
     case Draw::screen:
       if (step.shader != Shader::keepShadow) bindScreenInputs(pass, step, input, light);
-      pass.draw(light != nullptr ? light->vertices : input.scene->vertices(), 3);
+      pass.draw(light != nullptr ? light->vertices : input.scene->drawn().vertices(), 3);
       break;
   }
 }

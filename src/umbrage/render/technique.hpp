@@ -36,4 +36,11 @@ class GlTechnique : public shadow::Technique {
                                                                 std::shared_ptr<gl::Context> context,
                                                                 const VolumeOptions& options = {});
 
+/// The same where casters let light through: what they take from it is summed up instead of counted (TintedPasses), and veils are seen through.
+/// `counting`: zPass or zFail. Shading and pictures have all surfaces of a pixel; Frame::silhouettes and Frame::extrusion change nothing.
+/// Source: B. Kim, K. Kim and G. Turk, real-time shadows of transparent casters using shadow volumes, 2008.
+[[nodiscard]] std::unique_ptr<GlTechnique> makeTintedTechnique(const shadow::Traits& traits, Counting counting,
+                                                               std::shared_ptr<gl::Context> context,
+                                                               const VolumeOptions& options = {});
+
 }  // namespace umbrage::render

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "umbrage/math/predicates.hpp"
 
@@ -78,13 +79,14 @@ constexpr std::array<std::array<double, 3>, 6> kDetours{{{0.5411, 0.3301, 0.7727
 
 // The count is constant as long as no side and no caster is crossed, and the eye is at least the threshold away from every
 // side that counts. So where the segment to the light grazes an inner edge or corner of a caster, ask from a point beside.
-int certainCount(const CasterSet& casters, const Silhouette& silhouette, const Vec3& eye, const EyeCount& plan) {
-  SurfaceCount result = countSurfaces(casters, silhouette, eye, plan.byZFail);
+std::vector<std::uint32_t> certainlyCrossed(const CasterSet& casters, const Silhouette& silhouette, const Vec3& eye,
+                                            const EyeCount& plan) {
+  CrossedSurfaces result = crossedSurfaces(casters, silhouette, eye, plan.byZFail);
   for (std::size_t i = 0; result.unclear > 0 && i < kDetours.size(); ++i) {
     const Vec3 detour(kDetours[i][0], kDetours[i][1], kDetours[i][2]);
-    result = countSurfaces(casters, silhouette, eye + 1e-4 * plan.threshold * detour, plan.byZFail);
+    result = crossedSurfaces(casters, silhouette, eye + 1e-4 * plan.threshold * detour, plan.byZFail);
   }
-  return result.count;
+  return std::move(result.triangles);
 }
 
 }  // namespace
@@ -139,7 +141,8 @@ EyeCount touchesEye(const CasterSet& casters, const Silhouette& silhouette, cons
 
 EyeCount countAtEye(const CasterSet& casters, const Silhouette& silhouette, const Vec3& eye) {
   EyeCount plan = touchesEye(casters, silhouette, eye);
-  plan.count = certainCount(casters, silhouette, eye, plan);
+  plan.crossed = certainlyCrossed(casters, silhouette, eye, plan);
+  plan.count = static_cast<int>(plan.crossed.size());
   return plan;
 }
 

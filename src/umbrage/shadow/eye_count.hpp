@@ -11,6 +11,7 @@ namespace umbrage::shadow {
 struct EyeCount {
   /// Caster surfaces between the eye and the light, without those of `byZFail`; the stencil starts from it.
   int count = 0;
+  std::vector<std::uint32_t> crossed;  ///< by countAtEye: these surfaces, caster triangles
   /// Per component: 1 when the eye is too close to one of its side quads or faces for z-pass.
   std::vector<std::uint8_t> byZFail;
   std::size_t byZFailCount = 0;

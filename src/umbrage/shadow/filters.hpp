@@ -29,13 +29,15 @@ class Filters {
   [[nodiscard]] bool isVeil(std::uint32_t triangle) const { return !empty() && ofTriangle_[triangle] != 0; }
   /// What a veil takes; nothing for what is opaque.
   [[nodiscard]] const FilterSum& of(std::uint32_t triangle) const { return sums_[empty() ? 0 : ofTriangle_[triangle]]; }
+  /// Steps to a factor of 2; a power of two.
+  [[nodiscard]] double steps() const { return steps_; }
   /// The part of the light that is left.
   [[nodiscard]] Vec3f transmitted(const FilterSum& sum) const;
 
  private:
   std::vector<std::uint32_t> ofTriangle_;  ///< per triangle: its place in `sums_`, 0: opaque
   std::vector<FilterSum> sums_{FilterSum{}};
-  double steps_ = 0x1p24;  ///< to a factor of 2
+  double steps_ = 0x1p24;
 };
 
 }  // namespace umbrage::shadow

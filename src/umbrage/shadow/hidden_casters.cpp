@@ -172,13 +172,16 @@ class Solids {
 
 }  // namespace
 
-HiddenCasters findHiddenCasters(const CasterSet& casters, const Vec4& light, std::span<const std::uint8_t> skip) {
+HiddenCasters findHiddenCasters(const CasterSet& casters, const Vec4& light, std::span<const std::uint8_t> skip,
+                                std::span<const std::uint8_t> clear) {
   UMBRAGE_CHECK(skip.empty() || skip.size() == casters.componentCount, "one entry a component");
   HiddenCasters hidden;
   hidden.component.assign(casters.componentCount, 0);
   std::vector<std::uint8_t> isSolid(casters.componentCount, 0);
   for (std::size_t t = 0; t < casters.triangles.size(); ++t)
     if (casters.outward[t] != 0) isSolid[casters.componentOf[t]] = 1;
+  for (std::size_t c = 0; c < clear.size(); ++c)
+    if (clear[c] != 0) isSolid[c] = 0;
   if (casters.componentCount < 2 || std::count(isSolid.begin(), isSolid.end(), 1) == 0) return hidden;
 
   const Lists triangles = listByComponent(casters.componentOf, casters.componentCount);

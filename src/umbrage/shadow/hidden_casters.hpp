@@ -21,9 +21,10 @@ struct HiddenCasters {
 ///    not convex, prove nothing.
 /// CAVEAT: some may be missed; solids are looked up in a grid of directions.
 /// `light`: homogeneous, relative to the origin of the casters.
-/// Components with a nonzero entry in `skip` are not asked about, but may hide others.
+/// Components with a nonzero entry in `skip` are not asked about, but may hide others; those with one in `clear` let light through and hide none.
 [[nodiscard]] HiddenCasters findHiddenCasters(const CasterSet& casters, const Vec4& light,
-                                              std::span<const std::uint8_t> skip = {});
+                                              std::span<const std::uint8_t> skip = {},
+                                              std::span<const std::uint8_t> clear = {});
 
 /// The silhouette without the components whose entry in `left` is not 0: as if they cast no shadow.
 [[nodiscard]] Silhouette without(const CasterSet& casters, Silhouette silhouette, std::span<const std::uint8_t> left);

@@ -102,12 +102,18 @@ ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, con
 
 SurfaceCount countSurfaces(const CasterSet& casters, const Silhouette& silhouette, const Vec3& point,
                            std::span<const std::uint8_t> skip) {
-  SurfaceCount result;
+  const CrossedSurfaces crossed = crossedSurfaces(casters, silhouette, point, skip);
+  return {static_cast<int>(crossed.triangles.size()), crossed.unclear};
+}
+
+CrossedSurfaces crossedSurfaces(const CasterSet& casters, const Silhouette& silhouette, const Vec3& point,
+                                std::span<const std::uint8_t> skip) {
+  CrossedSurfaces result;
   for (std::uint32_t t = 0; t < casters.triangles.size(); ++t) {
     if (silhouette.side[t] == 0 || (!skip.empty() && skip[casters.componentOf[t]] != 0)) continue;
     const std::array<Vec3, 3> corner{casters.corner(t, 0), casters.corner(t, 1), casters.corner(t, 2)};
     const Hit hit = between(corner, silhouette.side[t], silhouette.light, point);
-    result.count += hit == Hit::yes;
+    if (hit == Hit::yes) result.triangles.push_back(t);
     result.unclear += hit == Hit::unclear;
   }
   return result;

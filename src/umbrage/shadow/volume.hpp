@@ -52,4 +52,12 @@ struct SurfaceCount {
 [[nodiscard]] SurfaceCount countSurfaces(const CasterSet& casters, const Silhouette& silhouette, const Vec3& point,
                                          std::span<const std::uint8_t> skip = {});
 
+/// Which they are, instead of how many.
+struct CrossedSurfaces {
+  std::vector<std::uint32_t> triangles;  ///< of the casters, ascending; those crossed for certain
+  int unclear = 0;                       ///< as SurfaceCount has it
+};
+[[nodiscard]] CrossedSurfaces crossedSurfaces(const CasterSet& casters, const Silhouette& silhouette, const Vec3& point,
+                                              std::span<const std::uint8_t> skip = {});
+
 }  // namespace umbrage::shadow

@@ -3,6 +3,7 @@
 #include "umbrage/techniques/gl/planar.hpp"
 #include "umbrage/techniques/gl/shadow_map.hpp"
 #include "umbrage/techniques/gl/shadow_map_perspective.hpp"
+#include "umbrage/techniques/gl/transparent.hpp"
 #include "umbrage/techniques/gl/volumes_brute.hpp"
 #include "umbrage/techniques/gl/zfail.hpp"
 #include "umbrage/techniques/gl/zmixed.hpp"
@@ -28,14 +29,21 @@ shadow::TechniqueEntry entry(shadow::Traits traits, Make make, ContextSlot slot,
 
 }  // namespace
 
-std::vector<shadow::TechniqueEntry> openGlTechniques(const render::VolumeOptions& options, const shadow::PlaneSearch& planes,
+std::vector<shadow::TechniqueEntry> openGlTechniques(const render::VolumeOptions& options,
+                                                     const shadow::PlaneSearch& planes,
                                                      const render::ShadowMapOptions& maps) {
   const auto slot = std::make_shared<std::shared_ptr<gl::Context>>();
-  return {entry(zFailTraits(), makeZFail, slot, options), entry(zPassTraits(), makeZPass, slot, options),
-          entry(zMixedTraits(), makeZMixed, slot, options), entry(zPassPlusTraits(), makeZPassPlus, slot, options),
+  return {entry(zFailTraits(), makeZFail, slot, options),
+          entry(zPassTraits(), makeZPass, slot, options),
+          entry(zMixedTraits(), makeZMixed, slot, options),
+          entry(zPassPlusTraits(), makeZPassPlus, slot, options),
           entry(volumesBruteTraits(), makeVolumesBrute, slot, options),
-          entry(planarTraits(), makePlanar, slot, planes), entry(shadowMapTraits(), makeShadowMap, slot, maps),
-          entry(perspectiveShadowMapTraits(), makePerspectiveShadowMap, slot, maps)};
+          entry(planarTraits(), makePlanar, slot, planes),
+          entry(shadowMapTraits(), makeShadowMap, slot, maps),
+          entry(perspectiveShadowMapTraits(), makePerspectiveShadowMap, slot, maps),
+
+          entry(transparentTraits(), makeTransparent, slot, options),
+          entry(transparentZFailTraits(), makeTransparentZFail, slot, options)};
 }
 
 }  // namespace umbrage::techniques

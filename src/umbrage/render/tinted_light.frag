@@ -1,0 +1,64 @@
+#version 450 core
+// One light's share of the picture, as light.frag, times what of it arrives; that of the veils apart.
+layout(std140, binding = 0) uniform Tinted {
+  vec4 eyeHigh;      // the eye in two floats a component, so that position - eye is exact near the eye
+  vec4 eyeLow;
+  vec4 scale;        // one step of a filter; the distance below which surfaces count as one
+  int firstLayer;    // of the two that are asked about; below 0: the opaque surface is
+  int litLayers;     // so many veils of each pixel are lit by themselves
+  int hasVeils;
+  int width;         // of the picture
+  int pixelCount;    // tints of veils come after those of the opaque surfaces
+  int light;         // which
+};
+layout(std140, binding = 1) uniform Shading {
+  vec4 rayCorner;   // the ray through window coordinates (x, y): rayCorner + x * rayX + y * rayY, relative to the eye
+  vec4 rayX;
+  vec4 rayY;
+  vec4 lamp;        // relative to the eye; w = 0: the direction towards it
+  vec4 radiance;    // linear colour x intensity
+  vec4 cone;        // a spot's direction and the cosine of its cutoff; w below -1: no cone
+  vec4 sky;         // up, and the ambient light
+  vec4 background;  // sRGB
+};
+layout(binding = 0) uniform usampler2D ids;
+struct Face {
+  vec4 normal;   // unit; material as the bits of w
+  vec4 corner;   // one of its corners
+  ivec4 filter3;  // what a veil takes, in steps; w: 1 for a veil
+};
+layout(std430, binding = 0) readonly buffer Faces { Face face[]; };
+layout(std430, binding = 2) readonly buffer Pixels { uvec2 pixel[]; };  // where its veils begin, and how many they are
+layout(std430, binding = 3) readonly buffer Veils { uvec2 veil[]; };    // triangle, with bit 31 where it shows its front; bits of its depth
+layout(std430, binding = 4) readonly buffer Tints { uvec2 tints[]; };      // 16 bits a channel
+layout(std430, binding = 5) readonly buffer Materials { vec4 material[]; };  // linear colour
+layout(std430, binding = 6) buffer VeilLight { vec4 veilLight[]; };
+const uint kNone = 0xffffffffu, kId = 0x7fffffffu;
+
+layout(location = 0) out vec4 share;
+
+vec3 tintAt(uint i) {
+  uvec2 t = tints[i];
+  return vec3(t.x & 0xffffu, t.x >> 16, t.y) / 65535.0;
+}
+
+vec3 lightOn(uint id, vec3 ray, vec3 tint) {
+  if (tint == vec3(0.0)) return vec3(0.0);
+  vec3 n = face[id].normal.xyz, a = (face[id].corner.xyz - eyeHigh.xyz) - eyeLow.xyz;
+  float slope = dot(n, ray);
+  vec3 towards = lamp.xyz - lamp.w * (slope != 0.0 ? ray * (dot(n, a) / slope) : a);
+  return tint * material[floatBitsToUint(face[id].normal.w)].rgb * radiance.rgb * abs(dot(n, normalize(towards)));
+}
+
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  vec3 ray = rayCorner.xyz + gl_FragCoord.x * rayX.xyz + gl_FragCoord.y * rayY.xyz;
+  uint place = uint(at.y * width + at.x);
+  if (hasVeils != 0)
+    for (uint k = pixel[place].x, end = k + pixel[place].y; k < end; ++k) {
+      vec3 before = light == 0 ? vec3(0.0) : veilLight[k].rgb;
+      veilLight[k] = vec4(before + lightOn(veil[k].x & kId, ray, tintAt(uint(pixelCount) + k)), 0.0);
+    }
+  uint id = texelFetch(ids, at, 0).r;
+  share = id != kNone ? vec4(lightOn(id, ray, tintAt(place)), 0.0) : vec4(0.0);
+}

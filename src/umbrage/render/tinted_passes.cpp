@@ -1,0 +1,342 @@
+#include "umbrage/render/tinted_passes.hpp"
+
+#include <umbrage_shaders/ambient_frag.hpp>
+#include <umbrage_shaders/screen_vert.hpp>
+#include <umbrage_shaders/tinted_encode_frag.hpp>
+#include <umbrage_shaders/tinted_layers_frag.hpp>
+#include <umbrage_shaders/tinted_light_frag.hpp>
+#include <umbrage_shaders/tinted_reach_frag.hpp>
+#include <umbrage_shaders/tinted_receivers_frag.hpp>
+#include <umbrage_shaders/tinted_tiles_frag.hpp>
+#include <umbrage_shaders/tinted_volume_frag.hpp>
+#include <umbrage_shaders/tinted_volume_layers_frag.hpp>
+#include <umbrage_shaders/tinted_volume_vert.hpp>
+
+#include <bit>
+
+#include "umbrage/gl/quirks.hpp"
+#include "umbrage/gl/read_back.hpp"
+
+namespace umbrage::render {
+namespace {
+
+constexpr std::size_t kTintBytes = 8;       // as the shaders have it
+constexpr std::size_t kVeilLightBytes = 16;  // likewise
+constexpr int kLayersAtOnce = 2;             // likewise
+
+/// A surface as the shaders know it, as std430 lays it out.
+struct Face {
+  Vec4f normal;  ///< unit; material as the bits of w
+  Vec4f corner;
+  std::array<std::int32_t, 4> filter;
+};
+
+std::vector<Face> facesOf(const shadow::Geometry& geometry) {
+  const scene::Surfaces& surfaces = geometry.surfaces;
+  std::vector<Face> faces;
+  faces.reserve(surfaces.triangles.size());
+  for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t) {
+    const Vec3 normal = surfaces.normal(t);
+    const double length = glm::length(normal);
+    const shadow::FilterSum& filter = geometry.filters.of(t);
+    faces.push_back({Vec4f(length > 0.0 ? Vec3f(normal / length) : Vec3f(0.0f), std::bit_cast<float>(surfaces.materials[t])),
+                     Vec4f(Vec3f(surfaces.corner(t, 0)), 1.0f),
+                     {filter[0], filter[1], filter[2], geometry.filters.isVeil(t) ? 1 : 0}});
+  }
+  return faces;
+}
+
+// Four bits a triangle, eight to a word, from the lowest.
+std::vector<std::uint32_t> packLightBits(std::span<const std::uint8_t> facing, std::span<const std::int8_t> side) {
+  std::vector<std::uint32_t> words((facing.size() + 7) / 8);
+  for (std::size_t t = 0; t < facing.size(); ++t) {
+    std::uint32_t bits = facing[t] != 0 ? 1 : 0;
+    if (!side.empty() && side[t] != 0) bits |= side[t] > 0 ? 2u : 4u;
+    words[t / 8] |= bits << (4 * (t % 8));
+  }
+  return words;
+}
+
+std::vector<std::uint32_t> pattern(std::size_t pieces, std::span<const std::uint32_t> corners) {
+  std::vector<std::uint32_t> indices;
+  indices.reserve(pieces * corners.size());
+  for (std::uint32_t i = 0; i < pieces; ++i)
+    for (const std::uint32_t corner : corners) indices.push_back(4 * i + corner);
+  return indices;
+}
+
+gl::PassState screenState(const TintedFrame& frame) {
+  gl::PassState state = frame.placement;
+  state.frontIsClockwise = false;
+  return state;
+}
+
+// The two parts of a sum, as tinted_volume.vert splits it.
+struct Parts {
+  std::int32_t upper, lower;
+  explicit Parts(std::int32_t sum) : upper((sum + 512) >> 10), lower(sum - upper * 1024) {}
+};
+
+std::array<std::array<float, 4>, TintTargets::kPairs> partsOf(const TintWeight& w) {
+  const Parts r(w.filter[0]), g(w.filter[1]), b(w.filter[2]);
+  const auto pair = [](std::int32_t x, std::int32_t y) {
+    return std::array{static_cast<float>(x), static_cast<float>(y), 0.0f, 0.0f};
+  };
+  return {pair(w.opaque, r.upper), pair(g.upper, b.upper), pair(r.lower, g.lower), pair(b.lower, 0)};
+}
+
+}  // namespace
+
+struct TintedPasses::Programs {
+  gl::Program receivers{shaders::kScreenVert, shaders::kTintedReceiversFrag},
+      layers{shaders::kScreenVert, shaders::kTintedLayersFrag}, tiles{shaders::kScreenVert, shaders::kTintedTilesFrag},
+      volume{shaders::kTintedVolumeVert, shaders::kTintedVolumeFrag},
+      volumeLayers{shaders::kTintedVolumeVert, shaders::kTintedVolumeLayersFrag},
+      reach{shaders::kScreenVert, shaders::kTintedReachFrag}, ambient{shaders::kScreenVert, shaders::kAmbientFrag},
+      light{shaders::kScreenVert, shaders::kTintedLightFrag}, encode{shaders::kScreenVert, shaders::kTintedEncodeFrag};
+};
+
+TintedPasses::TintedPasses() : programs_(std::make_unique<Programs>()) {}
+TintedPasses::~TintedPasses() = default;
+
+Result<std::unique_ptr<TintedPasses>> TintedPasses::make(const shadow::Geometry& geometry) {
+  std::unique_ptr<TintedPasses> passes(new TintedPasses);
+  const std::vector<Face> faces = facesOf(geometry);
+  if (auto done = setStorage(passes->faces_, std::as_bytes(std::span(faces)), "triangles"); !done)
+    return tl::unexpected(done.error());
+  for (std::int32_t i = 0; i < 3; ++i)
+    if (auto done = passes->counted_[static_cast<std::size_t>(i)].setOne(std::array{i, 0, 0, 0}); !done)
+      return tl::unexpected(done.error());
+  return passes;
+}
+
+Result<void> TintedPasses::setMaterials(std::span<const scene::Material> materials) {
+  std::vector<Vec4f> colours, passing;
+  for (const scene::Material& m : materials) {
+    colours.emplace_back(Vec3f(m.colour), static_cast<float>(m.opacity));
+    passing.emplace_back(Vec3f(scene::transmittance(m)), 0.0f);
+  }
+  if (auto done = colours_.setAll(colours); !done) return done;
+  return passing_.setAll(passing);
+}
+
+Result<void> TintedPasses::setBlock(const TintedFrame& frame, int firstLayer, int light) {
+  TintedBlock block = frame.block;
+  block.firstLayer = firstLayer;
+  block.light = light;
+  return block_.setOne(block);
+}
+
+Result<void> TintedPasses::setLight(const TintedFrame& frame, const TintedLight& light, std::span<const std::uint8_t> facing,
+                                    std::span<const std::int8_t> side) {
+  const auto surfaces = static_cast<std::size_t>(frame.block.pixelCount) + frame.veils.count();
+  if (kTintBytes * surfaces > gl::findQuirks().maxStorageBytes)
+    return fail(ErrorCode::device, "the picture shows more surfaces than a buffer of this driver holds tints for");
+  for (const auto& done : {view_.setOne(light.view), shading_.setOne(light.shading),
+                           bits_.setAll(packLightBits(facing, side)), tints_.reserve(kTintBytes * surfaces)})
+    if (!done) return done;
+  return {};
+}
+
+Result<image::Image<Vec2f>> TintedPasses::receivers(const TintedFrame& frame) {
+  const int columns = tilesFor(frame.target.width()), rows = tilesFor(frame.target.height());
+  if (auto done = setBlock(frame, -1, 0); !done) return tl::unexpected(done.error());
+  {
+    gl::PassState state;
+    state.viewport = {0, 0, columns, rows};
+    state.colourWrite = true;
+    gl::Pass pass(frame.scope, frame.target.tilesTarget(), state);
+    pass.use(programs_->tiles);
+    pass.uniforms(0, block_);
+    pass.storage(1, bits_);
+    pass.storage(2, frame.veils.pixels());
+    pass.storage(3, frame.veils.veils());
+    pass.texture(0, frame.target.ids());
+    pass.texture(1, frame.target.depthStencil());
+    pass.draw(screen_, 3);
+  }
+  return gl::readPairs(frame.scope, frame.target.tilesTarget(), columns, rows);
+}
+
+Result<void> TintedPasses::setPatterns(std::size_t pieces) {
+  if (pieces <= patterns_) return {};
+  patterns_ = pieces + pieces / 4;
+  constexpr std::array<std::uint32_t, 6> kSide{0, 1, 2, 0, 2, 3};
+  if (auto done = quads_.setAll(pattern(patterns_, kSide)); !done) return done;
+  return triangles_.setAll(pattern(patterns_, std::span(kSide).first(3)));
+}
+
+Result<void> TintedPasses::setVolume(const TintedVolume& volume) {
+  passSides_ = volume.passSides, passCaps_ = volume.passCaps;
+  failSides_ = volume.failSides, failCaps_ = volume.failCaps;
+  atEye_ = volume.atEye;
+  for (const auto& done : {setStorage(pieces_, std::as_bytes(std::span(volume.pieces)), "sides of shadow volumes"),
+                           farPoints_.setAll(volume.farPoints), setPatterns(volume.pieces.size())})
+    if (!done) return done;
+  return {};
+}
+
+// Where there is something to be summed up, by a 1 in the stencil.
+void TintedPasses::mark(const TintedFrame& frame, const gl::Rect& area, bool layers) {
+  gl::PassState state = screenState(frame);
+  const gl::StencilFace write{.pass = gl::StencilOp::replace};
+  state.stencil = {.test = true, .reference = 1, .front = write, .back = write};
+  state.scissor = area;
+  state.colourWrite = layers;
+  gl::Pass pass(frame.scope, layers ? frame.target.tints().depthsTarget : frame.target.stencilTarget(), state);
+  pass.clearStencil(0);
+  pass.use(layers ? programs_->layers : programs_->receivers);
+  pass.uniforms(0, block_);
+  pass.storage(1, bits_);
+  if (layers) {
+    pass.storage(2, frame.veils.pixels());
+    pass.storage(3, frame.veils.veils());
+  }
+  pass.texture(0, frame.target.ids());
+  pass.draw(screen_, 3);
+}
+
+void TintedPasses::count(const TintedFrame& frame, const gl::Rect& area, bool layers, Counted counted) {
+  const IndexRange& sides = counted == behind ? failSides_ : passSides_;
+  const IndexRange& caps = counted == before ? passCaps_ : failCaps_;
+  const bool hasSides = counted != everywhere && sides.count > 0, hasCaps = counted != behind && caps.count > 0;
+  if (!hasSides && !hasCaps) return;
+  const TintTargets& tints = frame.target.tints();
+  gl::PassState state = frame.placement;
+  // What is behind the opaque surface is before no veil; what is not may still be behind one.
+  const bool isCompared = counted == before || (counted == behind && !layers);
+  const auto compare = counted == before ? gl::Compare::greater : gl::Compare::lessOrEqual;
+  state.depth = {.test = isCompared, .pass = compare, .write = false, .clamp = true};
+  state.stencil = {.test = true, .compare = gl::Compare::equal, .reference = 1};
+  state.blend = gl::Blend::add;
+  state.colourWrite = true;
+  state.colourTargets = layers ? gl::kColourTargets : static_cast<int>(TintTargets::kPairs);
+  state.scissor = area;
+  gl::Pass pass(frame.scope, layers ? tints.layers : tints.opaque, state);
+  pass.use(layers ? programs_->volumeLayers : programs_->volume);
+  pass.uniforms(0, view_);
+  pass.storage(0, frame.scene.positions());
+  pass.storage(1, farPoints_);
+  pass.storage(2, pieces_);
+  if (layers) {
+    pass.uniforms(1, counted_[counted]);
+    pass.texture(0, tints.depths);
+  }
+  if (hasSides) pass.drawIndexed(quadVertices_, 6 * sides.first, 6 * sides.count);
+  if (hasCaps) pass.drawIndexed(triangleVertices_, 3 * caps.first, 3 * caps.count);
+}
+
+void TintedPasses::sum(const TintedFrame& frame, const TintedLight& light, bool layers) {
+  const gl::Rect area = gl::intersect(light.volumeArea, light.litArea);
+  {
+    gl::PassState state = screenState(frame);
+    state.colourWrite = true;
+    state.colourTargets = layers ? gl::kColourTargets : static_cast<int>(TintTargets::kPairs);
+    state.scissor = light.litArea;
+    gl::Pass pass(frame.scope, layers ? frame.target.tints().layers : frame.target.tints().opaque, state);
+    const auto start = partsOf(atEye_);
+    for (int i = 0; i < state.colourTargets; ++i)
+      pass.clearColour(start[static_cast<std::size_t>(i) % TintTargets::kPairs], i);
+  }
+  if (area.empty()) return;
+  mark(frame, area, layers);
+  for (const Counted counted : {before, behind, everywhere}) count(frame, area, layers, counted);
+}
+
+void TintedPasses::writeTints(const TintedFrame& frame, bool layers) {
+  gl::Pass pass(frame.scope, frame.target.stencilTarget(), screenState(frame));
+  pass.use(programs_->reach);
+  pass.uniforms(0, block_);
+  pass.uniforms(1, shading_);
+  pass.storage(0, faces_);
+  pass.storage(1, bits_);
+  pass.storage(2, frame.veils.pixels());
+  pass.storage(3, frame.veils.veils());
+  pass.storage(4, tints_);
+  pass.texture(0, frame.target.ids());
+  const auto& sums = frame.target.tints().sums;
+  for (unsigned i = 0; i < sums.size(); ++i)
+    pass.texture(1 + i, sums[layers ? i : i % TintTargets::kPairs]);
+  pass.draw(screen_, 3);
+  pass.publishStorage();
+}
+
+Result<void> TintedPasses::reach(const TintedFrame& frame, const TintedLight& light, const PhaseEnd& ended) {
+  const auto end = [&](const char* phase) {
+    if (!ended) return;
+    gl::finish();
+    ended(phase);
+  };
+  const auto layer = [&](int first) -> Result<void> {
+    const bool layers = first >= 0;
+    if (auto done = setBlock(frame, first, light.number); !done) return done;
+    sum(frame, light, layers);
+    end(layers ? "layers" : "volumes");
+    writeTints(frame, layers);
+    end("lit");
+    return {};
+  };
+  if (auto done = layer(-1); !done) return done;
+  const int layers = static_cast<int>(frame.layers());
+  for (int first = 0; first < layers; first += kLayersAtOnce)
+    if (auto done = layer(first); !done) return done;
+  return {};
+}
+
+Result<void> TintedPasses::beginPicture(const TintedFrame& frame, const gl::Buffer& shading) {
+  gl::PassState state = screenState(frame);
+  state.colourWrite = true;
+  gl::Pass pass(frame.scope, frame.target.sumTarget(), state);
+  pass.clearColour({0.0f, 0.0f, 0.0f, 0.0f});
+  pass.use(programs_->ambient);
+  pass.uniforms(1, shading);
+  pass.storage(1, frame.scene.triangles());
+  pass.storage(2, frame.scene.corners());
+  pass.storage(4, colours_);
+  pass.texture(0, frame.target.ids());
+  pass.draw(screen_, 3);
+  return veilLight_.reserve(kVeilLightBytes * frame.veils.count());
+}
+
+Result<void> TintedPasses::addLight(const TintedFrame& frame, int light) {
+  if (auto done = setBlock(frame, -1, light); !done) return done;
+  gl::PassState state = screenState(frame);
+  state.colourWrite = true;
+  state.blend = gl::Blend::add;
+  gl::Pass pass(frame.scope, frame.target.sumTarget(), state);
+  pass.use(programs_->light);
+  pass.uniforms(0, block_);
+  pass.uniforms(1, shading_);
+  pass.storage(0, faces_);
+  pass.storage(2, frame.veils.pixels());
+  pass.storage(3, frame.veils.veils());
+  pass.storage(4, tints_);
+  pass.storage(5, colours_);
+  pass.storage(6, veilLight_);
+  pass.texture(0, frame.target.ids());
+  pass.draw(screen_, 3);
+  pass.publishStorage();
+  return {};
+}
+
+Result<void> TintedPasses::endPicture(const TintedFrame& frame, const gl::Buffer& shading, std::size_t lights) {
+  if (auto done = setBlock(frame, -1, static_cast<int>(lights)); !done) return done;
+  gl::PassState state = screenState(frame);
+  state.colourWrite = true;
+  gl::Pass pass(frame.scope, frame.target.pictureTarget(), state);
+  pass.use(programs_->encode);
+  pass.uniforms(0, block_);
+  pass.uniforms(1, shading);
+  pass.storage(0, faces_);
+  pass.storage(2, frame.veils.pixels());
+  pass.storage(3, frame.veils.veils());
+  pass.storage(5, colours_);
+  pass.storage(6, veilLight_);
+  pass.storage(7, passing_);
+  pass.texture(0, frame.target.ids());
+  pass.texture(1, frame.target.sum());
+  pass.draw(screen_, 3);
+  return {};
+}
+
+}  // namespace umbrage::render
