@@ -35,6 +35,7 @@ constexpr Command kCommands[] = {
     {"hours", "Exact hours of sun at points, on a grid or on faces, as table, heat map, GeoTIFF or model", addHours},
     {"isochrones", "Where a plane has at least so many hours of sun or shadow, as outlines", addIsochrones},
     {"terrain", "Hours of sun on a height raster of any size, tile by tile", addTerrain},
+    {"cut", "Surfaces cut into lit and shadowed polygons, as model, and their areas", addCut},
     {"sample", "Writes one of the scenes that come with the program", addSample},
 };
 

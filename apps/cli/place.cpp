@@ -39,10 +39,11 @@ void warnOfNorth(const study::Georeference& own, const SceneOptions& options, co
 }  // namespace
 
 void addPlaceOptions(CLI::App& app, PlaceOptions& options, PlaceFrom from) {
-  const bool optional = from == PlaceFrom::scene;
+  const bool optional = from != PlaceFrom::options;
   const Manner place{.group = "Place and time", .required = !optional};
   const std::string orScene = optional ? " (default: where the scene says it stands)" : "";
-  constexpr Manner manner{.group = "Place and time", .required = true};
+  const Manner manner{.group = "Place and time", .required = from != PlaceFrom::nobody};
+  if (from == PlaceFrom::nobody) options.zone.name.clear();
   const auto degrees = [](double limit) {
     return [limit](const std::string& word) { return parseNumber(word, -limit, limit); };
   };

@@ -12,8 +12,9 @@ struct PlaceOptions {
   sun::Zone zone;
 };
 
-/// Whether a command may take the place from its scene.
-enum class PlaceFrom { options, scene };
+/// Whether a command may take the place from its scene, or do without any place and day (`nobody`: then without --date the day is not ok(), and without
+/// --tz the zone has no name).
+enum class PlaceFrom { options, scene, nobody };
 
 /// --lat, --lon, --date and --tz, all required, but the first two where the scene may say the place.
 void addPlaceOptions(CLI::App& app, PlaceOptions& options, PlaceFrom from = PlaceFrom::options);

@@ -5,6 +5,7 @@
 
 #include "umbrage/cut/detail/borders.hpp"
 #include "umbrage/cut/detail/cone.hpp"
+#include "umbrage/cut/detail/cover.hpp"
 #include "umbrage/cut/detail/partition.hpp"
 #include "umbrage/shadow/facing.hpp"
 
@@ -67,6 +68,8 @@ std::optional<FaceCut> LightCutter::cut(std::uint32_t triangle, Effort& effort) 
   const detail::Face face = p.face(triangle);
   if (!shadow::visibleSideFacesLight(p.geometry->surfaces, triangle, p.towards, p.towards) ||
       !(face.lightHeight > 0.0))
+    return FaceCut(face.frame, face.tolerance, {}, FaceCut::kDark);
+  if (detail::isCovered(p.casters, face, {face.frame.flatCorners.begin(), face.frame.flatCorners.end()}))
     return FaceCut(face.frame, face.tolerance, {}, FaceCut::kDark);
   detail::ConeLines cone;
   if (p.cone && !p.whollyInside(face))

@@ -1,7 +1,10 @@
 #include "umbrage/cut/detail/partition.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <cstdlib>
 #include <utility>
+
+#include "umbrage/cut/detail/cover.hpp"
 
 namespace umbrage::cut::detail {
 namespace {
@@ -11,8 +14,6 @@ constexpr std::int32_t kLit = FaceCut::kLit, kDark = FaceCut::kDark;
 constexpr std::size_t kTried = 8, kWeighed = 64;
 // A border that the line cuts is worth so many on its wrong side.
 constexpr int kCutCost = 4;
-// Of the casters over a point so many are tried for one that covers a whole polygon.
-constexpr int kCoversTried = 8;
 // A ray costs about so many steps.
 constexpr std::int64_t kRaySteps = 64;
 
@@ -39,11 +40,13 @@ class Partition {
       Task task = std::move(open_.back());
       open_.pop_back();
       if (!effort_.spendSteps(kRaySteps + static_cast<std::int64_t>(task.borders.size()))) return std::nullopt;
-      if (const auto line = nextLine(task)) {
+      if (task.borders.size() > 1 && isCovered(casters_, face_, task.polygon)) {
+        close(task.parent, task.side, kDark);
+      } else if (const auto line = nextLine(task)) {
         if (!effort_.spendPieces(1)) return std::nullopt;
         divide(std::move(task), *line);
       } else {
-        close(task.parent, task.side, isDark(task) ? kDark : kLit);
+        close(task.parent, task.side, isHidden(casters_, face_, task.polygon) ? kDark : kLit);
       }
     }
     joinAlike();
@@ -77,13 +80,8 @@ class Partition {
       close(task.parent, task.side, kDark);
   }
 
-  // The line to divide by next; none when the polygon is lit or dark as a whole. Borders that do not cut it are taken out.
+  // The line to divide by next; none when no border crosses the polygon. Those that do not are taken out.
   std::optional<std::uint32_t> nextLine(Task& task) {
-    if (task.borders.size() > 1 && isCovered(task.polygon)) {
-      covered_ = true;
-      return std::nullopt;
-    }
-    covered_ = false;
     while (!task.borders.empty()) {
       const std::size_t chosen = choose(task.borders);
       const std::uint32_t line = task.borders[chosen].line;
@@ -149,59 +147,6 @@ class Partition {
     return parts;
   }
 
-  [[nodiscard]] Vec3 middle(const Polygon& polygon) const {
-    Vec2 sum(0.0);
-    for (const Vec2& p : polygon) sum += p;
-    sum /= double(polygon.size());
-    return face_.frame.origin + sum.x * face_.frame.e1 + sum.y * face_.frame.e2;
-  }
-
-  [[nodiscard]] bool isDark(const Task& task) const {
-    if (covered_) return true;
-    bool dark = false;
-    visitHiding(casters_, face_, middle(task.polygon), [&](std::uint32_t) {
-      dark = true;
-      return false;
-    });
-    return dark;
-  }
-
-  // Whether one caster alone hides all of it, so that borders in it need no look.
-  [[nodiscard]] bool isCovered(const Polygon& polygon) const {
-    int tried = 0;
-    bool covered = false;
-    visitHiding(casters_, face_, middle(polygon), [&](std::uint32_t t) {
-      covered = covers(t, polygon);
-      return !covered && ++tried < kCoversTried;
-    });
-    return covered;
-  }
-
-  // A caster that hides the polygon's middle.
-  [[nodiscard]] bool covers(std::uint32_t t, const Polygon& polygon) const {
-    const trace::Corners c = casters_.corners(t);
-    const std::array<Vec3, 3> corners{c.a, c.b, c.c};
-    const Vec3 inner = middle(polygon);
-    if (!holds(glm::cross(c.b - c.a, c.c - c.a), c.a, inner, polygon)) return false;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 along = corners[(k + 1) % 3] - corners[k];
-      const Vec3 normal = glm::cross(along, Vec3(casters_.light) - corners[k] * casters_.light.w);
-      if (!holds(normal, corners[k], inner, polygon)) return false;
-    }
-    return true;
-  }
-
-  // Whether no corner of a polygon is on the other side of a plane than a point.
-  [[nodiscard]] bool holds(const Vec3& normal, const Vec3& on, const Vec3& inner, const Polygon& polygon) const {
-    const FaceFrame& f = face_.frame;
-    const double sign = glm::dot(normal, inner - on) < 0.0 ? -1.0 : 1.0;
-    const Vec3 line = sign * Vec3(glm::dot(normal, f.e1), glm::dot(normal, f.e2), glm::dot(normal, f.origin - on));
-    const double nothing = face_.tolerance * glm::length(Vec2(line));
-    for (const Vec2& p : polygon)
-      if (!(heightOf(line, p) >= -nothing)) return false;
-    return true;
-  }
-
   // Parts that came out alike were divided for nothing; nodes that are left keep their order.
   void joinAlike() {
     const auto joined = [&](std::int32_t at) {
@@ -245,7 +190,6 @@ class Partition {
   std::vector<Task> open_;
   Polygon below_, above_;  ///< of the last split
   int side_ = 0;
-  bool covered_ = false;  ///< of the task at hand
 };
 
 }  // namespace
