@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "commands.hpp"
@@ -90,13 +88,6 @@ Result<image::RgbImage> makePicture(const RenderOptions& options, const View& vi
   return shadow::averaged(*picture, options.view.antialias);
 }
 
-Result<int> parseAntialias(std::string_view word) {
-  const auto number = parseNumber(word, 1, 8);
-  if (!number) return tl::unexpected(number.error());
-  if (*number != std::floor(*number)) return fail(ErrorCode::usage, "must be a whole number, for example 2");
-  return static_cast<int>(*number);
-}
-
 Result<Outcome> run(const RenderOptions& options, const Console& console) {
   if (const auto open = checkFiles(options); !open) return tl::unexpected(open.error());
   Stopwatch watch;
@@ -148,9 +139,9 @@ Run addRender(CLI::App& app) {
            options->show, [](const std::string& word) {
              return parseWords(word, {"volumes", "silhouette"});
            });
-  addValue(app, "--antialias", "N", "Smooth edges: N x N samples a pixel of the picture, 1 to 8 (default 1)",
-           options->view.antialias, parseAntialias);
+  addAntialiasOption(app, options->view);
   addCameraOptions(app, options->view);
+  addAmbientOption(app, options->view);
   addLightOptions(app, options->view);
   addGroundOption(app, options->view);
   addSilhouetteOption(app, options->view);

@@ -43,6 +43,12 @@ struct Place {
   Vec3 parts;             ///< between its corners; adds up to 1
 };
 
+/// Part of what is at a place.
+struct Share {
+  std::uint32_t vertex;
+  double part;
+};
+
 /// The triangles of surfaces, cut into four again and again, each as often as somebody wants.
 /// 1. Vertices are shared by all elements of one sheet; children have the same centres as they would have without their parent.
 /// 2. Triangles without area, and all but the first of those that coincide, have no elements of their own.
@@ -80,6 +86,9 @@ class Subdivision {
 
   /// The leaf that holds a point, given by its parts of the triangle's corners.
   [[nodiscard]] std::optional<Place> find(std::uint32_t triangle, Vec3 parts) const;
+
+  /// Which vertices a place is between, and how much of each it has; adds up to 1. Continuous over the whole sheet.
+  [[nodiscard]] std::array<Share, 3> between(const Place& place) const;
 
   /// The corners of a leaf in order, with those that neighbours have set upon its edges.
   void outline(std::uint32_t leaf, std::vector<std::uint32_t>& out) const;

@@ -1,6 +1,7 @@
 #include "umbrage/techniques/cpu/registry.hpp"
 
 #include "umbrage/techniques/cpu/detail/hybrid_cpu.hpp"
+#include "umbrage/techniques/cpu/detail/radiosity.hpp"
 #include "umbrage/techniques/cpu/detail/ray_traced.hpp"
 #include "umbrage/techniques/cpu/detail/soft.hpp"
 #include "umbrage/techniques/cpu/detail/transparent_cpu.hpp"
@@ -20,7 +21,8 @@ std::vector<shadow::TechniqueEntry> cpuTechniques() {
                                  "shadows, on the processor.",
                                  detail::makeHybridCpu, detail::makeTransparentCpu}),
           detail::softTechnique({"soft_rays", "The same by rays alone: the truth for soft_cpu, given samples enough.",
-                                 detail::makeRayTraced, detail::makeTransparentRays})};
+                                 detail::makeRayTraced, detail::makeTransparentRays}),
+          {detail::radiosityTraits(), [] { return detail::makeRadiosity(); }}};
 }
 
 }  // namespace umbrage::techniques
