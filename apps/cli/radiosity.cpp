@@ -50,7 +50,8 @@ Result<void> checkFiles(const RadiosityOptions& options) {
 
 // A sun that nobody asked for is no part of a scene that shines by itself.
 void leaveOutTheDefaultSun(const RadiosityOptions& options, View& view) {
-  const bool shines = std::ranges::any_of(view.scene.materials, [](const scene::Material& m) { return m.emission != Vec3(0.0); });
+  const bool shines =
+      std::ranges::any_of(view.scene.materials, [](const scene::Material& m) { return m.emission != Vec3(0.0); });
   if (!options.view.lights.empty() || !view.scene.lights.empty() || !shines) return;
   view.lights.clear();
   view.lightReason = "no light given: what shines by itself";
@@ -146,6 +147,13 @@ Result<Outcome> run(const RadiosityOptions& options, const Console& console) {
   return Outcome{energyTable(lit)};
 }
 
+Result<std::size_t> parseCount(std::string_view word) {
+  const auto number = parseNumber(word, 1, 1e9);
+  if (!number || *number != double(static_cast<std::size_t>(*number)))
+    return fail(ErrorCode::usage, "must be a whole number from 1 to 1000000000");
+  return static_cast<std::size_t>(*number);
+}
+
 auto numberIn(double low, double high) {
   return [low, high](const std::string& word) { return parseNumber(word, low, high); };
 }
@@ -158,8 +166,10 @@ Run addRadiosity(CLI::App& app) {
   addValues(app, "-o,--output", "OUT",
             "A picture (.png), or the elements with their light as colours of vertices (.glb, .ply); repeatable",
             options->outputs, parseWord);
-  addWord(app, "--stats", "STATS.json", "What was done, where the light has gone, and how long it took", options->stats);
-  addValue(app, "--patch", "SIZE", "Edges of what gives off light, in the scene's unit (default: a twelfth of its radius)",
+  addWord(app, "--stats", "STATS.json", "What was done, where the light has gone, and how long it took",
+          options->stats);
+  addValue(app, "--patch", "SIZE",
+           "Edges of what gives off light, in the scene's unit (default: a twelfth of its radius)",
            options->solve.patch, numberIn(1e-9, 1e9), kLight);
   addValue(app, "--element", "SIZE", "Edges of what receives it are cut no shorter (default: an eighth of --patch)",
            options->solve.element, numberIn(1e-9, 1e9), kLight);
@@ -168,6 +178,8 @@ Run addRadiosity(CLI::App& app) {
            options->solve.error, numberIn(0, 100), kLight);
   addValue(app, "--unshot", "E", "Ends when so little of all light still waits to be given off (default 0.001)",
            options->solve.unshot, numberIn(1e-9, 1), kLight);
+  addValue(app, "--shots", "N", "Or after so many patches have given off light: a first picture of a large scene",
+           options->solve.mostShots, parseCount, kLight);
   addValue(app, "--exposure", "X", "What light is multiplied by, 1 being white (default: nearly all fits)",
            options->exposure, numberIn(1e-9, 1e9), kLight);
   addAntialiasOption(app, options->view);

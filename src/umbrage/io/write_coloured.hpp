@@ -24,6 +24,7 @@ struct ColouredMesh {
 /// 2. .glb: COLOR_0 in single precision, linear, unlit (KHR_materials_unlit), and the exitance as _EXITANCE. .ply: red, green, blue as 8-bit sRGB,
 ///    and exitance_red, exitance_green, exitance_blue in single precision.
 /// REQUIRES: one colour and one exitance a position, indices in range. Errors: usage (unknown extension), output (cannot be written).
-[[nodiscard]] Result<void> writeColoured(const ColouredMesh& mesh, const scene::Scene& frame, const std::filesystem::path& path);
+[[nodiscard]] Result<void> writeColoured(const ColouredMesh& mesh, const scene::Scene& frame,
+                                         const std::filesystem::path& path);
 
 }  // namespace umbrage::io

@@ -54,7 +54,8 @@ TEST(WriteColoured, GlbHoldsColoursAndExitance) {
   const auto json = nlohmann::json::parse(bytes.substr(20, length));
   const auto& attributes = json["meshes"][0]["primitives"][0]["attributes"];
   const auto floats = [&](const char* name, std::size_t i) {
-    const auto& view = json["bufferViews"][json["accessors"][attributes[name].get<std::size_t>()]["bufferView"].get<std::size_t>()];
+    const auto& view =
+        json["bufferViews"][json["accessors"][attributes[name].get<std::size_t>()]["bufferView"].get<std::size_t>()];
     float value = 0;
     std::memcpy(&value, bytes.data() + 28 + length + view["byteOffset"].get<std::size_t>() + 4 * i, 4);
     return value;

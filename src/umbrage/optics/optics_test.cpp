@@ -122,7 +122,8 @@ TEST(Tracer, WithoutDepthItIsTheComposite) {
 
 /// A slab of glass, `thick` below z = 0, and far below it a lamp for x < 0, dark beyond.
 scene::Scene slabOver(double thick, double ior, double far) {
-  auto s = stage({shapes::box({-50, -50, -thick}, {50, 50, 0}), shapes::quad({-90, -90, -far}, {0, -90, -far}, {0, 90, -far}, {-90, 90, -far})});
+  auto s = stage({shapes::box({-50, -50, -thick}, {50, 50, 0}),
+                  shapes::quad({-90, -90, -far}, {0, -90, -far}, {0, 90, -far}, {-90, 90, -far})});
   paintMesh(s, 0, glass(ior));
   paintMesh(s, 1, lamp(Vec3(1.0)));
   return s;
@@ -161,7 +162,8 @@ TEST(Tracer, NoLightIsLostOrMadeAtAnInterface) {
 
 // From within glass the world above is a disc; beyond the critical angle there is nothing but what is inside.
 TEST(Tracer, BeyondTheCriticalAngleAllIsThrownBack) {
-  auto scene = stage({shapes::box({-40, -40, -2}, {40, 40, 0}), shapes::quad({-900, -900, 3}, {900, -900, 3}, {900, 900, 3}, {-900, 900, 3}),
+  auto scene = stage({shapes::box({-40, -40, -2}, {40, 40, 0}),
+                      shapes::quad({-900, -900, 3}, {900, -900, 3}, {900, 900, 3}, {-900, 900, 3}),
                       shapes::quad({-39, -39, -1.9}, {39, -39, -1.9}, {39, 39, -1.9}, {-39, 39, -1.9})});
   paintMesh(scene, 0, glass(1.5));
   paintMesh(scene, 1, lamp(Vec3(1.0, 0, 0)));
@@ -175,7 +177,8 @@ TEST(Tracer, BeyondTheCriticalAngleAllIsThrownBack) {
     EXPECT_NEAR(c.x, 1.0 - back, 1e-3) << angle;
     EXPECT_NEAR(c.y, back, 1e-3) << angle;
   }
-  for (const double angle : {critical + 0.01, 50.0, 70.0}) EXPECT_LT(glm::length(upwards(angle) - Vec3(0, 1, 0)), 1e-9) << angle;
+  for (const double angle : {critical + 0.01, 50.0, 70.0})
+    EXPECT_LT(glm::length(upwards(angle) - Vec3(0, 1, 0)), 1e-9) << angle;
 }
 
 // Rays near the axis of a ball of glass meet at n R / 2 (n - 1) from its middle.
@@ -211,7 +214,8 @@ TEST(Tracer, EverySurfaceTakesItsFilter) {
 }
 
 TEST(Tracer, TwoMirrorsEndWhereTheDepthEnds) {
-  auto scene = stage({shapes::quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}), shapes::quad({-9, -9, 1}, {9, -9, 1}, {9, 9, 1}, {-9, 9, 1})});
+  auto scene = stage({shapes::quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}),
+                      shapes::quad({-9, -9, 1}, {9, -9, 1}, {9, 9, 1}, {-9, 9, 1})});
   scene.materials[0].colour = Vec3(0.5);
   scene.materials[0].mirror = 1.0;
   for (const int depth : {0, 1, 2, 5}) {

@@ -24,7 +24,8 @@ Vec3 linearBackground(const Vec3& srgb) {
 
 }  // namespace
 
-Tracer::Tracer(const scene::Scene& scene, trace::Transmission rays, std::span<const scene::Light> lights, const Options& options)
+Tracer::Tracer(const scene::Scene& scene, trace::Transmission rays, std::span<const scene::Light> lights,
+               const Options& options)
     : scene_(scene),
       rays_(std::move(rays)),
       options_(std::make_unique<const Options>(options)),
@@ -59,7 +60,9 @@ std::vector<std::uint32_t> Tracer::inside(const Vec3& point) const {
     const std::uint32_t instance = surfaces().instances[solids_[begin]];
     for (; end < solids_.size() && surfaces().instances[solids_[end]] == instance; ++end) {
       const std::uint32_t t = solids_[end];
-      crossed += trace::crossing(point, way, {surfaces().corner(t, 0), surfaces().corner(t, 1), surfaces().corner(t, 2)}).has_value();
+      crossed +=
+          trace::crossing(point, way, {surfaces().corner(t, 0), surfaces().corner(t, 1), surfaces().corner(t, 2)})
+              .has_value();
     }
     if (crossed % 2 != 0) found.push_back(solids_[begin]);
   }
@@ -108,7 +111,8 @@ Vec3 Tracer::lit(std::size_t light, const Vec3& from, const Meeting& at) const {
 // Of what is opaque of a surface.
 Vec3 Tracer::ownLook(const Ray& ray, const Meeting& at) const {
   const scene::Material& material = *at.face.material;
-  const bool mirrors = material.mirror > 0.0 && ray.mirrored < options_->reflections && ray.weight * material.mirror >= kLeastWeight;
+  const bool mirrors =
+      material.mirror > 0.0 && ray.mirrored < options_->reflections && ray.weight * material.mirror >= kLeastWeight;
   Vec3 look(0.0);
   if (!mirrors || material.mirror < 1.0)
     look = painter_.colour(at.face, at.point, ray.direction, [&](std::size_t i) { return lit(i, ray.from, at); });
@@ -190,7 +194,8 @@ Vec3 Tracer::along(const Ray& ray) const {
 }
 
 Result<image::RgbImage> paint(const scene::Scene& scene, const std::shared_ptr<const shadow::Geometry>& geometry,
-                              const scene::Camera& camera, std::span<const scene::Light> lights, const Options& options) {
+                              const scene::Camera& camera, std::span<const scene::Light> lights,
+                              const Options& options) {
   const auto tracer = Tracer::build(scene, geometry, lights, options);
   if (!tracer) return tl::unexpected(tracer.error());
   const scene::PixelRays rays = scene::pixelRays(camera);

@@ -14,7 +14,8 @@ namespace umbrage::optics {
 
 struct Options {
   int reflections = 0;  ///< at most so many mirrors one after the other
-  int refractions = 0;  ///< at most so many interfaces that bend light, or throw it back from within, one after the other; 0: light goes straight on
+  int refractions =
+      0;  ///< at most so many interfaces that bend light, or throw it back from within, one after the other; 0: light goes straight on
   std::size_t lightSamples = 64;  ///< points of each light that has an extent
   shadow::CompositeOptions look = {};
 };
@@ -37,7 +38,9 @@ class Tracer {
                                             std::span<const scene::Light> lights, const Options& options);
 
   /// Linear, what comes from there along a ray. `from` is relative to the origin of the surfaces. May be asked in many threads at once.
-  [[nodiscard]] Vec3 colour(const Vec3& from, const Vec3& direction) const { return along({from, direction, inside(from)}); }
+  [[nodiscard]] Vec3 colour(const Vec3& from, const Vec3& direction) const {
+    return along({from, direction, inside(from)});
+  }
 
   /// The same of many rays from one place.
   class From {
@@ -56,9 +59,10 @@ class Tracer {
  private:
   struct Ray {
     Vec3 from, direction;
-    std::vector<std::uint32_t> inside = {};  ///< triangles by which solids were entered, or any of theirs; the last is the medium
-    int mirrored = 0, bent = 0;              ///< so far
-    double weight = 1.0;                     ///< what it counts for at most
+    std::vector<std::uint32_t> inside =
+        {};                      ///< triangles by which solids were entered, or any of theirs; the last is the medium
+    int mirrored = 0, bent = 0;  ///< so far
+    double weight = 1.0;         ///< what it counts for at most
   };
   struct LightPoints {
     std::vector<shadow::LightSample> samples;
@@ -71,7 +75,8 @@ class Tracer {
     Vec3 normal;  ///< that light goes by; on the ray's side
   };
 
-  Tracer(const scene::Scene& scene, trace::Transmission rays, std::span<const scene::Light> lights, const Options& options);
+  Tracer(const scene::Scene& scene, trace::Transmission rays, std::span<const scene::Light> lights,
+         const Options& options);
 
   [[nodiscard]] Vec3 along(const Ray& ray) const;
   [[nodiscard]] Vec3 atInterface(const Ray& ray, const Meeting& at, const Vec3& own) const;
@@ -96,7 +101,9 @@ class Tracer {
 
 /// The picture that a camera sees of a tracer's scene.
 /// Errors: ErrorCode::device when memory runs out or rays cannot be had.
-[[nodiscard]] Result<image::RgbImage> paint(const scene::Scene& scene, const std::shared_ptr<const shadow::Geometry>& geometry,
-                                            const scene::Camera& camera, std::span<const scene::Light> lights, const Options& options);
+[[nodiscard]] Result<image::RgbImage> paint(const scene::Scene& scene,
+                                            const std::shared_ptr<const shadow::Geometry>& geometry,
+                                            const scene::Camera& camera, std::span<const scene::Light> lights,
+                                            const Options& options);
 
 }  // namespace umbrage::optics

@@ -92,7 +92,9 @@ Result<image::RgbImage> paint(const scene::Scene& scene, const Solution& solutio
   const double exposure = options.exposure.value_or(exposureOf(scene, solution));
   const scene::PixelRays rays = scene::pixelRays(camera);
   const Vec3 eye = camera.eye - solution.surfaces->origin;
-  const auto code = [](double srgb) { return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(srgb, 0.0, 1.0))); };
+  const auto code = [](double srgb) {
+    return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(srgb, 0.0, 1.0)));
+  };
   image::RgbImage picture(camera.width, camera.height,
                           {code(options.background.x), code(options.background.y), code(options.background.z)});
   const auto done = trace::forEachTile(camera.width, camera.height, [&](const trace::Tile& tile) {

@@ -24,8 +24,8 @@ struct PictureOptions {
 
 /// The light as a camera sees it, the ambient term included.
 /// REQUIRES: the solution is of this scene. Errors: ErrorCode::device when memory runs out or rays cannot be had.
-[[nodiscard]] Result<image::RgbImage> paint(const scene::Scene& scene, const Solution& solution, const scene::Camera& camera,
-                                            const PictureOptions& options = {});
+[[nodiscard]] Result<image::RgbImage> paint(const scene::Scene& scene, const Solution& solution,
+                                            const scene::Camera& camera, const PictureOptions& options = {});
 
 /// A mesh whose vertices know their light.
 struct LitMesh {

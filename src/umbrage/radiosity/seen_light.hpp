@@ -20,7 +20,8 @@ struct SeenOptions {
 /// What of one light all surfaces see.
 struct SeenLight {
   Subdivision mesh;
-  std::vector<std::array<float, 2>> parts;  ///< per vertex and side (see Sheet): the part of the light that is seen, in [0, 1]
+  std::vector<std::array<float, 2>>
+      parts;  ///< per vertex and side (see Sheet): the part of the light that is seen, in [0, 1]
 
   /// Of a point of a triangle, relative to the origin of the surfaces.
   [[nodiscard]] double at(std::uint32_t triangle, const Vec3& point, std::size_t side) const;
@@ -28,6 +29,7 @@ struct SeenLight {
 
 /// The first step of radiosity alone: the light on elements that are cut where shadows end.
 /// Errors: ErrorCode::device when memory runs out.
-[[nodiscard]] Result<SeenLight> seenLight(const trace::Occlusion& occlusion, const scene::Light& light, const SeenOptions& options = {});
+[[nodiscard]] Result<SeenLight> seenLight(const trace::Occlusion& occlusion, const scene::Light& light,
+                                          const SeenOptions& options = {});
 
 }  // namespace umbrage::radiosity

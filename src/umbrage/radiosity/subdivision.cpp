@@ -14,9 +14,7 @@ constexpr double kInside = 0x1p-10;
 /// Cosine of what rounding may turn neighbours in one plane by.
 constexpr double kSamePlane = 1.0 - 5e-9;
 
-std::uint64_t pairKey(std::uint32_t a, std::uint32_t b) {
-  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-}
+std::uint64_t pairKey(std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
 /// Sets that grow together.
 class Union {

@@ -23,8 +23,8 @@ struct Sheet {
 
 /// Where light is known.
 struct Vertex {
-  Vec3 position;            ///< relative to the origin of the surfaces
-  Vec3 sample;              ///< where it is looked at: a little inside the sheet, so that nothing is met that stands at its border
+  Vec3 position;  ///< relative to the origin of the surfaces
+  Vec3 sample;  ///< where it is looked at: a little inside the sheet, so that nothing is met that stands at its border
   std::uint32_t sheet = 0;
   std::uint32_t triangle = 0;  ///< of the surfaces; one of those that hold `sample`
 };
@@ -34,7 +34,7 @@ struct Element {
   std::array<std::uint32_t, 3> corner{};  ///< vertices
   std::uint32_t centre = 0;               ///< the vertex in its middle
   std::uint32_t triangle = 0;             ///< of the surfaces
-  std::uint32_t children = 0;             ///< the first of four: at corner 0, 1 and 2, and the middle one; 0: it has none
+  std::uint32_t children = 0;  ///< the first of four: at corner 0, 1 and 2, and the middle one; 0: it has none
 };
 
 /// Where a point of a triangle lies.

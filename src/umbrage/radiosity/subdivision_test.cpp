@@ -16,7 +16,8 @@ double totalArea(const Subdivision& mesh) {
   double sum = 0.0;
   for (const Face& f : faces(mesh)) {
     const Vec3 a = mesh.vertices()[f.corner[0]].position;
-    sum += 0.5 * glm::length(glm::cross(mesh.vertices()[f.corner[1]].position - a, mesh.vertices()[f.corner[2]].position - a));
+    sum += 0.5 * glm::length(
+                     glm::cross(mesh.vertices()[f.corner[1]].position - a, mesh.vertices()[f.corner[2]].position - a));
   }
   return sum;
 }
@@ -109,9 +110,9 @@ TEST(Subdivision, PlacesLieBetweenTheirVertices) {
 }
 
 TEST(Subdivision, WhatHasNoAreaAndWhatIsThereTwice) {
-  const auto surfaces = surfacesOf({shapes::triangle({0, 0, 0}, {1, 0, 0}, {2, 0, 0}),
-                                    shapes::triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
-                                    shapes::triangle({0, 1, 0}, {1, 0, 0}, {0, 0, 0})});
+  const auto surfaces =
+      surfacesOf({shapes::triangle({0, 0, 0}, {1, 0, 0}, {2, 0, 0}), shapes::triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
+                  shapes::triangle({0, 1, 0}, {1, 0, 0}, {0, 0, 0})});
   const Subdivision mesh(surfaces);
   EXPECT_EQ(mesh.elements().size(), 1u);
   EXPECT_EQ(mesh.root(0), kNone);

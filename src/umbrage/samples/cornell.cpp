@@ -4,8 +4,8 @@
 namespace umbrage::samples::detail {
 namespace {
 
-constexpr double kRoom = 5.5;     // inner width, depth and height
-constexpr double kWall = 0.125;   // thickness
+constexpr double kRoom = 5.5;    // inner width, depth and height
+constexpr double kWall = 0.125;  // thickness
 
 /// A block turned about its upright axis: a corner of its foot, one edge of it, and its height.
 void addBlock(Part& part, const Vec2& corner, const Vec2& edge, double height) {

@@ -22,7 +22,8 @@ constexpr std::array<Sample, 7> kSamples{{
     {{"building", "An office tower of about 180,000 triangles: facade grid, slabs, concrete core."}, detail::building},
     {{"pavilion", "A stained-glass corner, a ball of glass and a smoked case with something inside: coloured light."},
      detail::pavilion},
-    {{"cornell", "A white room with a red and a green wall, two blocks and a shining panel below its ceiling."}, detail::cornell},
+    {{"cornell", "A white room with a red and a green wall, two blocks and a shining panel below its ceiling."},
+     detail::cornell},
     {{"still_life", "Balls of glass and of silver on a chequered floor before a tall mirror."}, detail::stillLife},
 }};
 

@@ -16,7 +16,8 @@ void addChequers(Part& part, std::uint32_t dark, std::uint32_t pale) {
 }
 
 /// A ball in a mesh of eight times its size: what is seen in it shows the last thousandth of a metre.
-void placeBall(SceneBuilder& scene, const std::string& name, std::uint32_t material, const Vec3& centre, double radius) {
+void placeBall(SceneBuilder& scene, const std::string& name, std::uint32_t material, const Vec3& centre,
+               double radius) {
   Part ball(name, material);
   addBlob(ball, {0, 0, 0}, Vec3(8.0 * radius), 5, 0.0);
   scene.place("Still life/" + name, scene.share(std::move(ball)), placed(centre, 0, 0.125));

@@ -39,9 +39,9 @@ class Radiosity final : public shadow::Technique {
       auto mask = maskOf(*seen, frame.camera, out.surface);
       if (!mask) return tl::unexpected(mask.error());
       out.masks.push_back(std::move(*mask));
-      out.stats.lights.push_back(
-          {.method = "radiosity",
-           .reason = "seen from " + std::to_string(seen->mesh.vertices().size()) + " vertices of elements, between them interpolated"});
+      out.stats.lights.push_back({.method = "radiosity",
+                                  .reason = "seen from " + std::to_string(seen->mesh.vertices().size()) +
+                                            " vertices of elements, between them interpolated"});
       clock.end("mask");
     }
     return out;
@@ -83,7 +83,9 @@ class Radiosity final : public shadow::Technique {
 shadow::Traits radiosityTraits() {
   shadow::Traits traits;
   traits.name = "radiosity";
-  traits.summary = "Light at the vertices of elements that are cut where shadows end, interpolated: approximate, the same from every eye.";
+  traits.summary =
+      "Light at the vertices of elements that are cut where shadows end, interpolated: approximate, the same from "
+      "every eye.";
   traits.soft = true;
   return traits;
 }
