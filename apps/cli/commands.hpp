@@ -9,6 +9,7 @@ namespace umbrage::cli {
 [[nodiscard]] Run addTechniques(CLI::App& app);
 [[nodiscard]] Run addSun(CLI::App& app);
 [[nodiscard]] Run addRender(CLI::App& app);
+[[nodiscard]] Run addRadiosity(CLI::App& app);
 [[nodiscard]] Run addCompare(CLI::App& app);
 [[nodiscard]] Run addProfile(CLI::App& app);
 [[nodiscard]] Run addOutline(CLI::App& app);

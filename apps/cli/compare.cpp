@@ -102,6 +102,7 @@ Run addCompare(CLI::App& app) {
   addWord(app, "-o,--output", "OUT.png", "A picture of the differences, in red", options->picture);
   addFlag(app, "--json", "As JSON", options->json);
   addCameraOptions(app, options->view);
+  addAmbientOption(app, options->view);
   addLightOptions(app, options->view);
   addGroundOption(app, options->view);
   addSilhouetteOption(app, options->view);

@@ -27,6 +27,8 @@ constexpr Command kCommands[] = {
     {"techniques", "Every technique, its traits, and whether it runs on this machine", addTechniques},
     {"sun", "Where the sun stands at a place and time", addSun},
     {"render", "A picture of a scene with exact shadows", addRender},
+    {"radiosity", "Light between surfaces: their light as a picture, or as colours at the vertices of a model",
+     addRadiosity},
     {"compare", "Two techniques on one picture: which pixels differ", addCompare},
     {"gallery", "Every technique on one scene: a page of pictures, errors and costs", addGallery},
     {"profile", "The shadows of a day: every step over the scene, and the time in shadow", addProfile},

@@ -101,8 +101,22 @@ void addCameraOptions(CLI::App& app, ViewOptions& options) {
   addValue(app, "--fov", "DEG", "Vertical field of view, 1 to 170 (default 45)", options.fov, degreesIn(1, 170),
            kPicture);
   addValue(app, "--size", "WxH", "Size of the picture in pixels (default 1280x720)", options.size, parseSize, kPicture);
+}
+
+void addAmbientOption(CLI::App& app, ViewOptions& options) {
   addValue(app, "--ambient", "A", "Light from everywhere, 0 to 1 (default 0.25)", options.ambient, numberIn(0, 1),
            kPicture);
+}
+
+void addAntialiasOption(CLI::App& app, ViewOptions& options) {
+  const auto parse = [](std::string_view word) -> Result<int> {
+    const auto number = parseNumber(word, 1, 8);
+    if (!number) return tl::unexpected(number.error());
+    if (*number != std::floor(*number)) return fail(ErrorCode::usage, "must be a whole number, for example 2");
+    return static_cast<int>(*number);
+  };
+  addValue(app, "--antialias", "N", "Smooth edges: N x N samples a pixel of the picture, 1 to 8 (default 1)",
+           options.antialias, parse);
 }
 
 void addLightOptions(CLI::App& app, ViewOptions& options) {

@@ -63,6 +63,9 @@ struct ViewOptions {
   shadow::SoftSampling soft;
 };
 void addCameraOptions(CLI::App& app, ViewOptions& options);
+/// --ambient, for pictures whose light is that of lights alone.
+void addAmbientOption(CLI::App& app, ViewOptions& options);
+void addAntialiasOption(CLI::App& app, ViewOptions& options);
 void addLightOptions(CLI::App& app, ViewOptions& options);
 void addGroundOption(CLI::App& app, ViewOptions& options);
 /// --silhouette, for commands that draw with techniques of shadow volumes.

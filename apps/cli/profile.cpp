@@ -88,6 +88,7 @@ Run addProfile(CLI::App& app) {
   addValue(app, "--technique", "NAME|auto", "How shadows are computed (see umbrage techniques; default auto)",
            options->technique, parseTechnique);
   addCameraOptions(app, options->view);
+  addAmbientOption(app, options->view);
   addGroundOption(app, options->view);
   addFlag(app, "--no-ground", "Leaves the ground out", options->noGround);
   return [options](const Console& console) { return run(*options, console); };

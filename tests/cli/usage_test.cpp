@@ -84,8 +84,9 @@ INSTANTIATE_TEST_SUITE_P(
         render("SunOfHalfTheSky", {"--light", "sun:0,0,-1,180"}, "no extent"),
         render("SphereShort", {"--light", "sphere:0,0,5"}, "sphere:x,y,z,RADIUS"),
         render("AreaLightForHard", {"--light", "sphere:0,0,5,1", "--technique", "zpass_cpu"}, "soft_cpu"),
-        render("TerminatorOfFlatShading", {"--hide-terminator"}, "--smooth"), render("SmoothTooFar", {"--smooth", "120"}, "--smooth"),
-        render("NoSamples", {"--samples", "0"}, "--samples"), render("HalfASample", {"--samples", "1.5"}, "--samples"),
+        render("TerminatorOfFlatShading", {"--hide-terminator"}, "--smooth"),
+        render("SmoothTooFar", {"--smooth", "120"}, "--smooth"), render("NoSamples", {"--samples", "0"}, "--samples"),
+        render("HalfASample", {"--samples", "1.5"}, "--samples"),
         render("SoftErrorNegative", {"--soft-error", "-1"}, "--soft-error"),
         render("VeilLayersNegative", {"--veil-layers", "-1"}, "--veil-layers"),
         render("VeilLayersWord", {"--veil-layers", "many"}, "--veil-layers"),
@@ -130,8 +131,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(CliTest, HelpAndVersionAreNoErrors) {
   const Ran help = umbrage({"--help"});
   EXPECT_EQ(help.code, 0);
-  for (const auto* command : {"info", "techniques", "sun", "render", "compare", "profile", "outline", "envelope",
-                              "isochrones", "terrain", "sample"})
+  for (const auto* command : {"info", "techniques", "sun", "render", "radiosity", "compare", "profile", "outline",
+                              "envelope", "isochrones", "terrain", "sample"})
     EXPECT_THAT(help.out, HasSubstr(command));
   // What later versions bring is not pretended.
   for (const auto* command : {"verify", "verify", "gallery"}) EXPECT_THAT(help.out, Not(HasSubstr(command)));

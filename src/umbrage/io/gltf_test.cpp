@@ -115,8 +115,8 @@ TEST(Gltf, materialsKeepLinearColourOpacityAndName) {
 }
 
 TEST(Gltf, whatShinesMirrorsAndBendsLight) {
-  const auto scene =
-      loaded(gltf(buffer(cubeBytes()) + kCubeViews + R"("extensionsUsed":["KHR_materials_emissive_strength"],"materials":[
+  const auto scene = loaded(
+      gltf(buffer(cubeBytes()) + kCubeViews + R"("extensionsUsed":["KHR_materials_emissive_strength"],"materials":[
     {"name":"lamp","emissiveFactor":[1,0.5,0],"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4}}},
     {"name":"mirror","pbrMetallicRoughness":{"metallicFactor":1,"roughnessFactor":0}},
     {"name":"brushed","pbrMetallicRoughness":{"metallicFactor":1,"roughnessFactor":0.5}},

@@ -14,7 +14,8 @@ constexpr double kRaking = 0x1p-20;
 
 }  // namespace
 
-DirectLight::DirectLight(const trace::Occlusion& occlusion, const scene::Light& light, std::size_t samples, const Box3& room)
+DirectLight::DirectLight(const trace::Occlusion& occlusion, const scene::Light& light, std::size_t samples,
+                         const Box3& room)
     : occlusion_(occlusion),
       brightness_(light.colour * light.intensity),
       centre_(scene::homogeneous(light, occlusion.surfaces().origin)),

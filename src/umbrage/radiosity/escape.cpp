@@ -26,8 +26,7 @@ void aim(const Emitter& e, std::uint32_t i, std::size_t lane, trace::Rays8& rays
   const Vec3 from = (1.0 - s) * e.corner[0] + s * (1.0 - t) * e.corner[1] + s * t * e.corner[2] + e.lift * e.normal;
   const Vec3 u = glm::normalize(e.corner[1] - e.corner[0]), v = glm::cross(e.normal, u);
   const double radius = std::sqrt(mirrored(i, 5)), angle = 2.0 * std::numbers::pi * mirrored(i, 7);
-  const Vec3 along =
-      radius * (std::cos(angle) * u + std::sin(angle) * v) + std::sqrt(1.0 - radius * radius) * e.normal;
+  const Vec3 along = radius * (std::cos(angle) * u + std::sin(angle) * v) + std::sqrt(1.0 - radius * radius) * e.normal;
   rays.fromX[lane] = static_cast<float>(from.x), rays.fromY[lane] = static_cast<float>(from.y);
   rays.fromZ[lane] = static_cast<float>(from.z);
   rays.directionX[lane] = static_cast<float>(along.x), rays.directionY[lane] = static_cast<float>(along.y);

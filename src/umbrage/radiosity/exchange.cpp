@@ -35,8 +35,9 @@ Result<std::vector<Factor>> Exchange::compute(Side emitter) const {
     const std::size_t begin = static_cast<std::size_t>(block) * kBlock, end = std::min(known_, begin + kBlock);
     auto& own = blocks[static_cast<std::size_t>(block)];
     for (std::size_t v = begin; v < end; ++v)
-      factors(from, static_cast<std::uint32_t>(v),
-              [&](Side receiver, double factor) { own.push_back({receiver, static_cast<float>(factor)}); });
+      factors(from, static_cast<std::uint32_t>(v), [&](Side receiver, double factor) {
+        own.push_back({receiver, static_cast<float>(factor)});
+      });
   });
   if (!done) return tl::unexpected(done.error());
   std::vector<Factor> all;

@@ -19,8 +19,7 @@ template <class Fn>
 double meanOver(const Quad& q, int n, const Fn& at) {
   double sum = 0.0;
   for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      sum += at(q[0] + (i + 0.5) / n * (q[1] - q[0]) + (j + 0.5) / n * (q[3] - q[0]));
+    for (int j = 0; j < n; ++j) sum += at(q[0] + (i + 0.5) / n * (q[1] - q[0]) + (j + 0.5) / n * (q[3] - q[0]));
   return sum / (n * n);
 }
 
@@ -69,9 +68,8 @@ TEST(FormFactor, BothWaysAlike) {
   const Vec3 nb = glm::normalize(glm::cross(b[1] - b[0], b[3] - b[0]));
   const double areaB = glm::length(glm::cross(b[1] - b[0], b[3] - b[0]));
   const double ab = 2.0 * meanOver(a, 200, [&](const Vec3& p) { return polygonFactor(p, {0, 0, 1}, b); });
-  const double ba = areaB * meanOver(b, 200, [&](const Vec3& p) {
-    return polygonFactor(p, nb, a) + polygonFactor(p, -nb, a);
-  });
+  const double ba =
+      areaB * meanOver(b, 200, [&](const Vec3& p) { return polygonFactor(p, nb, a) + polygonFactor(p, -nb, a); });
   std::printf("A1 F12 %.6f, A2 F21 %.6f\n", ab, ba);
   EXPECT_NEAR(ab / ba, 1.0, 1e-3);
 }
@@ -118,7 +116,8 @@ TEST(VisibleFactor, WhatABlockerLeaves) {
   EXPECT_DOUBLE_EQ(whole, polygonFactor(floor.point, floor.normal, lamp().corner));
   EXPECT_EQ(visibleFactor(all, floor, lamp()), 0.0);
   const Quad shade{Vec3(-.1, -.1, 2), Vec3(.1, -.1, 2), Vec3(.1, .1, 2), Vec3(-.1, .1, 2)};
-  EXPECT_NEAR(visibleFactor(speck, floor, lamp()), whole - polygonFactor(floor.point, floor.normal, shade), 0.02 * whole);
+  EXPECT_NEAR(visibleFactor(speck, floor, lamp()), whole - polygonFactor(floor.point, floor.normal, shade),
+              0.02 * whole);
   EXPECT_EQ(visibleFactor(free, {{0, 0, 3}, {0, 0, -1}, 1e-5}, lamp()), 0.0) << "behind the lamp";
   EXPECT_EQ(visibleFactor(free, {{0, 0, 0}, {0, 0, -1}, 1e-5}, lamp()), 0.0) << "looking away";
 }

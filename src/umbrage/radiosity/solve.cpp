@@ -53,9 +53,7 @@ class Solver {
   [[nodiscard]] const scene::Material& materialOf(std::uint32_t sheet) const {
     return scene_.materials[mesh_.sheets()[sheet].material];
   }
-  [[nodiscard]] const scene::Material& materialOfPatch(std::size_t patch) const {
-    return *materials_[patch];
-  }
+  [[nodiscard]] const scene::Material& materialOfPatch(std::size_t patch) const { return *materials_[patch]; }
   [[nodiscard]] Vec3 exitance(Side receiver) const {
     const scene::Material& material = materialOf(mesh_.vertices()[receiver / 2].sheet);
     return material.emission + material.colour * received_[receiver];
@@ -88,7 +86,7 @@ class Solver {
   Options options_;
   detail::Exchange exchange_;
   std::vector<const scene::Material*> materials_;  ///< of patches
-  std::vector<Vec3> received_, direct_;  ///< per side of a vertex; `direct_`: of it, from lights of the scene
+  std::vector<Vec3> received_, direct_;            ///< per side of a vertex; `direct_`: of it, from lights of the scene
   std::vector<Vec3> shot_, mean_;        ///< per side of a patch: given off so far; the mean of what was received
   Side brightest_ = 0;                   ///< with the most unshot light
   double emitted_ = 0.0, unshot_ = 0.0;  ///< sums over channels
@@ -249,8 +247,9 @@ Result<void> Solver::run(const ProgressSink& progress) {
   std::size_t waiting = 0;  // patches that shine by themselves and have not shot yet
   for (Side side = 0; side < shot_.size(); ++side) waiting += shinesByItself(side);
   double fraction = 0.0;
-  for (int cuts = 0; cuts < 2 || stats_.unshotPart > options_.unshot;) {
-    const bool done = stats_.unshotPart <= options_.unshot;
+  const auto isDone = [&] { return stats_.unshotPart <= options_.unshot || stats_.shots >= options_.mostShots; };
+  for (int cuts = 0; cuts < 2 || !isDone();) {
+    const bool done = isDone();
     if ((cuts == 0 && waiting == 0) || (cuts < 2 && done)) {
       ++cuts;
       const auto goOn = refineAll(progress, fraction);
@@ -264,7 +263,7 @@ Result<void> Solver::run(const ProgressSink& progress) {
     if (shinesByItself(brightest_) && shot_[brightest_] == Vec3(0.0)) --waiting;
     if (auto shot = shoot(); !shot) return shot;
   }
-  stats_.converged = true;
+  stats_.converged = stats_.unshotPart <= options_.unshot;
   return {};
 }
 
@@ -305,8 +304,8 @@ void Solver::finish(Solution& solution) const {
   for (std::size_t p = 0; p < patches_.count(); ++p)
     area += patches_.area(p), albedo += patches_.area(p) * materialOfPatch(p).colour;
   if (area > 0.0)
-    solution.ambient = glm::max(Vec3(0.0), solution.balance.unshot) / (2.0 * area) /
-                       glm::max(1.0 - albedo / area, Vec3(0.01));
+    solution.ambient =
+        glm::max(Vec3(0.0), solution.balance.unshot) / (2.0 * area) / glm::max(1.0 - albedo / area, Vec3(0.01));
 }
 
 }  // namespace

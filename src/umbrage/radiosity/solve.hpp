@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -15,14 +16,18 @@ namespace umbrage::radiosity {
 
 /// How exactly light is followed. Lengths are in scene units.
 struct Options {
-  double patch = 0.0;    ///< edges of what gives off light are at most so long; 0: a twelfth of the radius of the scene's casters
+  double patch =
+      0.0;  ///< edges of what gives off light are at most so long; 0: a twelfth of the radius of the scene's casters
   double element = 0.0;  ///< edges of what receives it are cut no shorter; 0: an eighth of `patch`
   /// Elements are cut where the light on them differs by more than this part of the scene's mean; 0: none is cut further than `patch` asks.
   double error = 0.1;
-  double unshot = 1e-3;            ///< ends when so little of all light that was emitted still waits to be given off
-  std::size_t lightSamples = 64;   ///< points of each light of the scene that has an extent
+  double unshot = 1e-3;  ///< ends when so little of all light that was emitted still waits to be given off
+  std::size_t mostShots = std::numeric_limits<std::size_t>::max();  ///< or after so many
+  std::size_t lightSamples = 64;        ///< points of each light of the scene that has an extent
   std::size_t mostElements = 1u << 20;  ///< no element is cut when there are so many
-  std::size_t memory = std::size_t{512} << 20;  ///< bytes for form factors that are kept; all others are computed again when they are wanted
+  std::size_t memory =
+      std::size_t{512}
+      << 20;  ///< bytes for form factors that are kept; all others are computed again when they are wanted
   VisibilityAccuracy visibility = {};
 };
 
@@ -39,10 +44,10 @@ struct Balance {
 struct SolveStats {
   std::size_t patches = 0, elements = 0, vertices = 0;  ///< patches: counting sides; elements: leaves
   std::size_t shots = 0;
-  std::size_t factors = 0;       ///< form factors that were computed
-  std::size_t refinements = 0;   ///< rounds in which elements were cut
-  bool converged = false;        ///< false: it was cancelled
-  double unshotPart = 0.0;       ///< of what was emitted
+  std::size_t factors = 0;      ///< form factors that were computed
+  std::size_t refinements = 0;  ///< rounds in which elements were cut
+  bool converged = false;       ///< false: it was cancelled, or had no more shots
+  double unshotPart = 0.0;      ///< of what was emitted
 };
 
 /// The light on all surfaces.
@@ -71,7 +76,7 @@ struct Solution {
 /// Source: M. F. Cohen, S. E. Chen, J. R. Wallace and D. P. Greenberg, A Progressive Refinement Approach to Fast Radiosity Image Generation, 1988;
 /// M. F. Cohen, D. P. Greenberg, D. S. Immel and P. J. Brock, An Efficient Radiosity Approach for Realistic Image Synthesis, 1986, for elements in
 /// patches.
-[[nodiscard]] Result<Solution> solve(const scene::Scene& scene, std::span<const scene::Light> lights, const Options& options = {},
-                                     const ProgressSink& progress = {});
+[[nodiscard]] Result<Solution> solve(const scene::Scene& scene, std::span<const scene::Light> lights,
+                                     const Options& options = {}, const ProgressSink& progress = {});
 
 }  // namespace umbrage::radiosity

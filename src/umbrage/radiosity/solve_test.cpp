@@ -59,7 +59,8 @@ TEST(Solve, AClosedFurnaceOfACubeGlowsAsItMust) {
     ASSERT_TRUE(solution);
     const double worst = worstInFurnace(*solution, scene, Vec3(0.5));
     std::printf("cube, albedo %.1f: worst of %zu vertices off by %.2e, balance %.1e, %zu shots, %zu factors\n", albedo,
-                solution->stats.vertices, worst, solution->balance.error(), solution->stats.shots, solution->stats.factors);
+                solution->stats.vertices, worst, solution->balance.error(), solution->stats.shots,
+                solution->stats.factors);
     EXPECT_TRUE(solution->stats.converged);
     EXPECT_LT(worst, 1e-4);
     EXPECT_LT(std::abs(solution->balance.error()), 1e-6);
@@ -72,8 +73,9 @@ TEST(Solve, AClosedFurnaceThatIsNotConvexGlowsAsItMust) {
     const auto solution = solve(scene, {}, {.patch = 0.5, .unshot = 1e-4});
     ASSERT_TRUE(solution);
     const double worst = worstInFurnace(*solution, scene, {0.5, 0.5, 0.5});
-    std::printf("corner room, albedo %.1f: worst of %zu vertices off by %.2e, balance %.1e, %zu shots, %zu factors\n", albedo,
-                solution->stats.vertices, worst, solution->balance.error(), solution->stats.shots, solution->stats.factors);
+    std::printf("corner room, albedo %.1f: worst of %zu vertices off by %.2e, balance %.1e, %zu shots, %zu factors\n",
+                albedo, solution->stats.vertices, worst, solution->balance.error(), solution->stats.shots,
+                solution->stats.factors);
     EXPECT_LT(worst, 0.005);
     EXPECT_LT(std::abs(solution->balance.error()), 0.005);
   }
@@ -97,8 +99,9 @@ TEST(Solve, EnergyIsKeptWhereLightIsUneven) {
     const auto solution = solve(roomWithALamp(), {}, {.patch = patch, .error = 0.2, .unshot = 1e-3});
     ASSERT_TRUE(solution);
     const Balance& b = solution->balance;
-    std::printf("room, patches of %.2f: emitted %.3f absorbed %.3f escaped %.4f unshot %.4f, error %.4f; %zu elements\n", patch,
-                sumOf(b.emitted), sumOf(b.absorbed), sumOf(b.escaped), sumOf(b.unshot), b.error(), solution->stats.elements);
+    std::printf(
+        "room, patches of %.2f: emitted %.3f absorbed %.3f escaped %.4f unshot %.4f, error %.4f; %zu elements\n", patch,
+        sumOf(b.emitted), sumOf(b.absorbed), sumOf(b.escaped), sumOf(b.unshot), b.error(), solution->stats.elements);
     EXPECT_NEAR(sumOf(b.emitted), 3 * 10 * 0.36 * 2, 1e-4);
     EXPECT_LT(std::abs(b.error()), 0.02);
     EXPECT_LT(sumOf(b.escaped) / sumOf(b.emitted), 1e-3);
@@ -189,11 +192,18 @@ TEST(Solve, TellsHowFarItIsAndStopsWhenAsked) {
   });
   ASSERT_TRUE(all);
   EXPECT_GT(told, 20u);
-  const auto stopped = solve(roomWithALamp(), {}, {.patch = 1.0, .error = 0.0},
-                             [&](double, std::string_view) { return told-- > 15; });
+  const auto stopped =
+      solve(roomWithALamp(), {}, {.patch = 1.0, .error = 0.0}, [&](double, std::string_view) { return told-- > 15; });
   ASSERT_TRUE(stopped);
   EXPECT_FALSE(stopped->stats.converged);
   EXPECT_GT(stopped->ambient.x, all->ambient.x);
+}
+
+TEST(Solve, EndsAfterSoManyShots) {
+  const auto few = solve(roomWithALamp(), {}, {.patch = 1.0, .error = 0.0, .mostShots = 10});
+  ASSERT_TRUE(few);
+  EXPECT_EQ(few->stats.shots, 10u);
+  EXPECT_FALSE(few->stats.converged);
 }
 
 TEST(Solve, NothingAtAllAndNothingThatShines) {

@@ -14,9 +14,7 @@ constexpr double kInside = 0x1p-10;
 /// Cosine of what rounding may turn neighbours in one plane by.
 constexpr double kSamePlane = 1.0 - 5e-9;
 
-std::uint64_t pairKey(std::uint32_t a, std::uint32_t b) {
-  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-}
+std::uint64_t pairKey(std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
 /// Sets that grow together.
 class Union {
@@ -204,6 +202,23 @@ std::optional<Place> Subdivision::find(std::uint32_t triangle, Vec3 parts) const
     element = children + static_cast<std::uint32_t>(corner);
   }
   return Place{element, parts};
+}
+
+// The place lies in the sector between the middle and the edge across from the corner it has least of; there on a straight line from the middle to a
+// point of that edge, which lies between two neighbours of those set upon it.
+std::array<Share, 3> Subdivision::between(const Place& place) const {
+  const Element& element = elements_[place.element];
+  const Vec3 parts = glm::max(place.parts, Vec3(0.0));
+  const int least = parts.x <= parts.y ? (parts.x <= parts.z ? 0 : 2) : (parts.y <= parts.z ? 1 : 2);
+  const int k = (least + 1) % 3, l = (least + 2) % 3;
+  std::uint32_t a = element.corner[static_cast<std::size_t>(k)], b = element.corner[static_cast<std::size_t>(l)];
+  const double ofMiddle = 3.0 * parts[least], ofEdge = parts[k] + parts[l] - 2.0 * parts[least];
+  double along = ofEdge > 0.0 ? (parts[l] - parts[least]) / ofEdge : 0.0;
+  for (auto middle = middles_.find(pairKey(a, b)); middle != middles_.end(); middle = middles_.find(pairKey(a, b))) {
+    (along < 0.5 ? b : a) = middle->second;
+    along = along < 0.5 ? 2.0 * along : 2.0 * along - 1.0;
+  }
+  return {Share{element.centre, ofMiddle}, Share{a, ofEdge * (1.0 - along)}, Share{b, ofEdge * along}};
 }
 
 void Subdivision::addChain(std::uint32_t a, std::uint32_t b, std::vector<std::uint32_t>& out) const {

@@ -23,8 +23,8 @@ struct Sheet {
 
 /// Where light is known.
 struct Vertex {
-  Vec3 position;            ///< relative to the origin of the surfaces
-  Vec3 sample;              ///< where it is looked at: a little inside the sheet, so that nothing is met that stands at its border
+  Vec3 position;  ///< relative to the origin of the surfaces
+  Vec3 sample;  ///< where it is looked at: a little inside the sheet, so that nothing is met that stands at its border
   std::uint32_t sheet = 0;
   std::uint32_t triangle = 0;  ///< of the surfaces; one of those that hold `sample`
 };
@@ -34,13 +34,19 @@ struct Element {
   std::array<std::uint32_t, 3> corner{};  ///< vertices
   std::uint32_t centre = 0;               ///< the vertex in its middle
   std::uint32_t triangle = 0;             ///< of the surfaces
-  std::uint32_t children = 0;             ///< the first of four: at corner 0, 1 and 2, and the middle one; 0: it has none
+  std::uint32_t children = 0;  ///< the first of four: at corner 0, 1 and 2, and the middle one; 0: it has none
 };
 
 /// Where a point of a triangle lies.
 struct Place {
   std::uint32_t element;  ///< a leaf
   Vec3 parts;             ///< between its corners; adds up to 1
+};
+
+/// Part of what is at a place.
+struct Share {
+  std::uint32_t vertex;
+  double part;
 };
 
 /// The triangles of surfaces, cut into four again and again, each as often as somebody wants.
@@ -80,6 +86,9 @@ class Subdivision {
 
   /// The leaf that holds a point, given by its parts of the triangle's corners.
   [[nodiscard]] std::optional<Place> find(std::uint32_t triangle, Vec3 parts) const;
+
+  /// Which vertices a place is between, and how much of each it has; adds up to 1. Continuous over the whole sheet.
+  [[nodiscard]] std::array<Share, 3> between(const Place& place) const;
 
   /// The corners of a leaf in order, with those that neighbours have set upon its edges.
   void outline(std::uint32_t leaf, std::vector<std::uint32_t>& out) const;

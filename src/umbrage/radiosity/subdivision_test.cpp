@@ -16,7 +16,8 @@ double totalArea(const Subdivision& mesh) {
   double sum = 0.0;
   for (const Face& f : faces(mesh)) {
     const Vec3 a = mesh.vertices()[f.corner[0]].position;
-    sum += 0.5 * glm::length(glm::cross(mesh.vertices()[f.corner[1]].position - a, mesh.vertices()[f.corner[2]].position - a));
+    sum += 0.5 * glm::length(
+                     glm::cross(mesh.vertices()[f.corner[1]].position - a, mesh.vertices()[f.corner[2]].position - a));
   }
   return sum;
 }
@@ -82,10 +83,36 @@ TEST(Subdivision, FindsTheLeafThatHoldsAPoint) {
   }
 }
 
+// What is linear over a sheet stays so, whatever hangs on its edges.
+TEST(Subdivision, PlacesLieBetweenTheirVertices) {
+  const auto surfaces = surfacesOf({shapes::quad({0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0})});
+  Subdivision mesh(surfaces);
+  for (const std::uint32_t root : {0u, 1u})
+    mesh.splitWhile(root, [&](const Element& e) {
+      return mesh.longestEdge(e) > 0.02 + 0.3 * glm::length(mesh.vertices()[e.centre].position - Vec3(1, 1, 0));
+    });
+  shapes::Random random(5);
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    double u = random.unit(), v = random.unit();
+    if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
+    const std::uint32_t t = i % 2;
+    const Vec3 wanted = (1 - u - v) * surfaces.corner(t, 0) + u * surfaces.corner(t, 1) + v * surfaces.corner(t, 2);
+    Vec3 found(0.0);
+    double sum = 0.0;
+    for (const Share& share : mesh.between(*mesh.find(t, {1 - u - v, u, v}))) {
+      EXPECT_GE(share.part, -1e-12);
+      found += share.part * mesh.vertices()[share.vertex].position;
+      sum += share.part;
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+    EXPECT_LT(glm::length(found - wanted), 1e-12);
+  }
+}
+
 TEST(Subdivision, WhatHasNoAreaAndWhatIsThereTwice) {
-  const auto surfaces = surfacesOf({shapes::triangle({0, 0, 0}, {1, 0, 0}, {2, 0, 0}),
-                                    shapes::triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
-                                    shapes::triangle({0, 1, 0}, {1, 0, 0}, {0, 0, 0})});
+  const auto surfaces =
+      surfacesOf({shapes::triangle({0, 0, 0}, {1, 0, 0}, {2, 0, 0}), shapes::triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
+                  shapes::triangle({0, 1, 0}, {1, 0, 0}, {0, 0, 0})});
   const Subdivision mesh(surfaces);
   EXPECT_EQ(mesh.elements().size(), 1u);
   EXPECT_EQ(mesh.root(0), kNone);

@@ -13,7 +13,7 @@ struct Sample {
   scene::Scene (*build)();
 };
 
-constexpr std::array<Sample, 5> kSamples{{
+constexpr std::array<Sample, 7> kSamples{{
     {{"courtyard", "A perimeter block around a court of 30 m with walls of 20 m, a kiosk and trees in it."},
      detail::courtyard},
     {{"tower", "A wrought-iron lattice tower of 300 m with curved legs: thousands of thin struts."}, detail::tower},
@@ -22,6 +22,9 @@ constexpr std::array<Sample, 5> kSamples{{
     {{"building", "An office tower of about 180,000 triangles: facade grid, slabs, concrete core."}, detail::building},
     {{"pavilion", "A stained-glass corner, a ball of glass and a smoked case with something inside: coloured light."},
      detail::pavilion},
+    {{"cornell", "A white room with a red and a green wall, two blocks and a shining panel below its ceiling."},
+     detail::cornell},
+    {{"still_life", "Balls of glass and of silver on a chequered floor before a tall mirror."}, detail::stillLife},
 }};
 
 constexpr auto kInfos = [] {

@@ -126,7 +126,10 @@ const std::map<std::string, Expected>& expectations() {
         {6, 5, 4.0400390625},
         6705907215128359498ull,
         {"Pavilion/South/Panes", "Pavilion/East/Panes"},
-        {}}}};
+        {}}},
+      {"cornell", {96, 96, {-0.125, 0, 0}, {5.625, 5.625, 5.75}, 15968708578153512032ull, {}, {}}},
+      {"still_life",
+       {60000, 70000, {-6, -6, 0}, {6, 6, 4.5}, 9534620504320989898ull, {"Still life/Floor", "Still life/Mirror"}, {}}}};
   return all;
 }
 
@@ -135,7 +138,7 @@ class EverySample : public testing::TestWithParam<std::string> {
   [[nodiscard]] scene::Scene scene() const { return built(GetParam()); }
   [[nodiscard]] const Expected& expected() const { return expectations().at(GetParam()); }
 };
-INSTANTIATE_TEST_SUITE_P(Samples, EverySample, testing::Values("courtyard", "tower", "industrial", "building", "pavilion"),
+INSTANTIATE_TEST_SUITE_P(Samples, EverySample, testing::Values("courtyard", "tower", "industrial", "building", "pavilion", "cornell", "still_life"),
                          [](const auto& each) { return each.param; });
 
 TEST_P(EverySample, IsAValidSceneInMetresWithZUp) {
@@ -271,7 +274,7 @@ TEST(Samples, AreListedByName) {
     EXPECT_FALSE(info.summary.empty());
     EXPECT_TRUE(make(info.name));
   }
-  EXPECT_THAT(names, testing::ElementsAre("courtyard", "tower", "industrial", "building", "pavilion"));
+  EXPECT_THAT(names, testing::ElementsAre("courtyard", "tower", "industrial", "building", "pavilion", "cornell", "still_life"));
   const auto none = make("castle");
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().code, ErrorCode::usage);

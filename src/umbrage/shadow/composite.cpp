@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "umbrage/shadow/finders/threads.hpp"
+#include "umbrage/shadow/painter.hpp"
 
 namespace umbrage::shadow {
 namespace {
@@ -29,117 +30,19 @@ const std::array<std::uint8_t, kCurveSteps + 1>& curveTable() {
 
 image::Rgb8 encode(const Vec3& linear) { return {encodeSrgb(linear.x), encodeSrgb(linear.y), encodeSrgb(linear.z)}; }
 
-struct PreparedLight {
-  Vec4 homogeneous;
-  Vec3 radiance;  // colour x intensity
-};
-
-// What the pixels of one triangle have in common; mostly the next shows the same.
-struct Face {
-  std::uint32_t triangle = kNoTriangle;
-  Vec3 normal{0.0};
-  const scene::Material* material = nullptr;
-};
-
-std::vector<PreparedLight> prepare(std::span<const scene::Light> lights, const Vec3& origin) {
-  std::vector<PreparedLight> prepared;
-  for (const scene::Light& light : lights)
-    prepared.push_back({scene::homogeneous(light, origin), light.colour * light.intensity});
-  return prepared;
-}
-
-/// How a surface is turned where it is looked at.
-struct Facing {
-  Vec3 normal;            ///< unit, on the eye's side
-  bool isSmooth = false;  ///< `normal` is not that of the facet, and may point away from a light that the facet faces
-  double fade = 0.0;      ///< cosines to the light up to this are none
-};
-
-// Light that falls on a surface at `point`, unshadowed.
-Vec3 received(const PreparedLight& light, const Vec3& point, const Facing& facing) {
-  const Vec3 direction = scene::towardsLight(light.homogeneous, point);
-  const double length = glm::length(direction);
-  if (!(length > 0.0)) return Vec3(0.0);
-  const double cosine = glm::dot(facing.normal, direction) / length;
-  if (!facing.isSmooth) return light.radiance * std::abs(cosine);
-  return light.radiance * std::max(0.0, (cosine - facing.fade) / (1.0 - facing.fade));
-}
-
-// Where a point of a triangle's plane lies between its corners.
-Vec3 barycentric(const scene::Surfaces& surfaces, std::uint32_t triangle, const Vec3& point) {
-  const Vec3 normal = surfaces.normal(triangle);
-  const auto part = [&](int k) {
-    const Vec3 a = surfaces.corner(triangle, (k + 1) % 3), b = surfaces.corner(triangle, (k + 2) % 3);
-    return std::clamp(glm::dot(glm::cross(b - a, point - a), normal) / glm::dot(normal, normal), 0.0, 1.0);
-  };
-  const Vec3 parts(part(0), part(1), part(2));
-  const double sum = parts.x + parts.y + parts.z;
-  return sum > 0.0 ? parts / sum : Vec3(1.0 / 3.0);
-}
-
 Vec3 maskValue(const LightMask& mask, int x, int y) {
   if (mask.tint.empty()) return Vec3(mask.light(x, y) / 255.0);
   return partsOf(mask.tint(x, y));
 }
 
-/// What surfaces look like from one camera.
-class Painter {
- public:
-  Painter(const scene::Scene& scene, const scene::Surfaces& surfaces, const scene::Camera& camera,
-          std::span<const scene::Light> lights, const CompositeOptions& options)
-      : scene_(scene),
-        surfaces_(surfaces),
-        lights_(prepare(lights, surfaces.origin)),
-        rays_(scene::pixelRays(camera)),
-        eye_(camera.eye - surfaces.origin),
-        up_(scene::upVector(scene.up)),
-        options_(options) {}
-
-  [[nodiscard]] Vec3 ray(int x, int y) const { return rays_.through(x + 0.5, y + 0.5); }
-  void turnTo(std::uint32_t triangle, Face& face) const {
-    if (triangle == face.triangle) return;
-    face = {triangle, glm::normalize(surfaces_.normal(triangle)), &scene_.materials[surfaces_.materials[triangle]]};
-  }
-  /// Linear; `reach(i)`: what of light i gets there.
-  template <class Reach>
-  [[nodiscard]] Vec3 colour(const Face& face, const Vec3& ray, float depth, const Reach& reach) const {
-    const double side = glm::dot(face.normal, ray) > 0.0 ? -1.0 : 1.0;
-    const Vec3 point = eye_ + double(depth) * ray;
-    const Facing facing = options_.smooth != nullptr ? smoothFacing(face.triangle, point, side) : Facing{side * face.normal};
-    Vec3 light(skyLight(options_.ambient, facing.normal, up_));
-    for (std::size_t i = 0; i < lights_.size(); ++i)
-      if (const Vec3 m = reach(i); m != Vec3(0.0)) light += m * received(lights_[i], point, facing);
-    return face.material->colour * light;
-  }
-
- private:
-  [[nodiscard]] Facing smoothFacing(std::uint32_t triangle, const Vec3& point, double side) const {
-    const auto& corners = options_.smooth->corners[triangle];
-    const Vec3 parts = barycentric(surfaces_, triangle, point);
-    Vec3 normal(0.0);
-    double slack = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      normal += parts[k] * Vec3(corners[static_cast<std::size_t>(k)].normal);
-      slack += parts[k] * double(corners[static_cast<std::size_t>(k)].slack);
-    }
-    return {side * glm::normalize(normal), true, options_.hideTerminator ? std::min(0.5, slack) : 0.0};
-  }
-
-  const scene::Scene& scene_;
-  const scene::Surfaces& surfaces_;
-  std::vector<PreparedLight> lights_;
-  scene::PixelRays rays_;
-  Vec3 eye_, up_;
-  const CompositeOptions& options_;
-};
-
 // The veils of a pixel, the farthest first, each over what is behind it.
-Vec3 veiled(Vec3 behind, const Painter& painter, const Vec3& ray, std::span<const Veil> veils, std::size_t first,
-            std::span<const LightMask> masks) {
+Vec3 veiled(Vec3 behind, const Painter& painter, const Vec3& eye, const Vec3& ray, std::span<const Veil> veils,
+            std::size_t first, std::span<const LightMask> masks) {
   for (std::size_t k = veils.size(); k-- > 0;) {
     Face face;
     painter.turnTo(veils[k].triangle, face);
-    const Vec3 own = painter.colour(face, ray, veils[k].depth, [&](std::size_t i) { return partsOf(masks[i].veils[first + k]); });
+    const Vec3 own = painter.colour(face, eye + double(veils[k].depth) * ray, ray,
+                                    [&](std::size_t i) { return partsOf(masks[i].veils[first + k]); });
     behind = scene::transmittance(*face.material) * behind + face.material->opacity * own;
   }
   return behind;
@@ -150,7 +53,9 @@ image::RgbImage paint(const scene::Scene& scene, const scene::Surfaces& surfaces
                       std::span<const LightMask> masks, const CompositeOptions& options) {
   UMBRAGE_CHECK(lights.size() == masks.size(), "one mask a light");
   UMBRAGE_CHECK(seen.triangle.width() == camera.width && seen.triangle.height() == camera.height, "picture size");
-  const Painter painter(scene, surfaces, camera, lights, options);
+  const Painter painter(scene, surfaces, lights, options);
+  const scene::PixelRays rays = scene::pixelRays(camera);
+  const Vec3 eye = camera.eye - surfaces.origin;
   const auto code = [](double srgb) { return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(srgb, 0.0, 1.0))); };
   const image::Rgb8 background{code(options.background.x), code(options.background.y), code(options.background.z)};
   const Vec3 far(decodeSrgb(background.r), decodeSrgb(background.g), decodeSrgb(background.b));
@@ -163,13 +68,13 @@ image::RgbImage paint(const scene::Scene& scene, const scene::Surfaces& surfaces
       const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(x);
       const std::span<const Veil> before = veils.at(pixel);
       if (t == kNoTriangle && before.empty()) continue;
-      const Vec3 ray = painter.ray(x, y);
+      const Vec3 ray = rays.through(x + 0.5, y + 0.5);
       Vec3 colour = far;
       if (t != kNoTriangle) {
         painter.turnTo(t, face);
-        colour = painter.colour(face, ray, seen.depth(x, y), [&](std::size_t i) { return maskValue(masks[i], x, y); });
+        colour = painter.colour(face, eye + double(seen.depth(x, y)) * ray, ray, [&](std::size_t i) { return maskValue(masks[i], x, y); });
       }
-      if (!before.empty()) colour = veiled(colour, painter, ray, before, veils.first[pixel], masks);
+      if (!before.empty()) colour = veiled(colour, painter, eye, ray, before, veils.first[pixel], masks);
       picture(x, y) = encode(colour);
     }
   };

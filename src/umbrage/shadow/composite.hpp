@@ -30,7 +30,7 @@ inline constexpr double kSkyBase = 0.75;
 /// Ambient light on a face: ambient x (kSkyBase + (1 - kSkyBase) x cosine between its visible normal and the up axis).
 [[nodiscard]] double skyLight(double ambient, const Vec3& normal, const Vec3& up);
 
-/// The picture on the CPU: linear colour x (sky light + sum over lights of mask x colour x intensity x |cosine|), flat
+/// The picture on the CPU: linear emission + colour x (sky light + sum over lights of mask x colour x intensity x |cosine|), flat
 /// two-sided shading, then the sRGB transfer curve. Where nothing is shadowed it equals the picture without shadows.
 /// REQUIRES: masks and lights of one length; sizes as the camera's.
 [[nodiscard]] image::RgbImage composite(const scene::Scene& scene, const scene::Surfaces& surfaces, const scene::Camera& camera,

@@ -78,7 +78,8 @@ void tidyMaterials(scene::Scene& s) {
       m.emission[k] = std::isfinite(m.emission[k]) ? std::clamp(m.emission[k], 0.0, kBrightest) : 0.0;
     m.mirror = std::isfinite(m.mirror) ? std::clamp(m.mirror, 0.0, 1.0) : 0.0;
     m.ior = std::isfinite(m.ior) ? std::clamp(m.ior, 1.0, kDensest) : 1.0;
-    if (m.opacity == 0.0 && !m.filter) m.filter = Vec3(1.0);  // nothing is there; what is seen of its colour is nothing too
+    if (m.opacity == 0.0 && !m.filter)
+      m.filter = Vec3(1.0);  // nothing is there; what is seen of its colour is nothing too
   }
 }
 

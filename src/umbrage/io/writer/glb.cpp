@@ -4,13 +4,13 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 
 #include "umbrage/io/writer/common.hpp"
+#include "umbrage/io/writer/glb_file.hpp"
 #include "umbrage/io/writer/writers.hpp"
 
 namespace umbrage::io::writer {
@@ -22,7 +22,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kFloat = 5126, kUnsignedInt = 5125;
 constexpr int kVertices = 34962, kIndices = 34963;
-constexpr std::size_t kMaxBytes = std::numeric_limits<std::uint32_t>::max();
 
 Json vectorJson(const Vec3& v) { return {v.x, v.y, v.z}; }
 
@@ -196,31 +195,15 @@ Json GlbWriter::document() const {
   return json;
 }
 
-void appendWord(std::string& bytes, std::size_t word) {
-  for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>(word >> shift & 0xffu));
-}
-
-void appendChunk(std::string& bytes, std::string_view type, std::string content, char padding) {
-  content.resize((content.size() + 3) / 4 * 4, padding);
-  appendWord(bytes, content.size());
-  bytes += type;
-  bytes += content;
-}
-
 Result<Document> GlbWriter::write() {
   addNode("", std::nullopt);
   if (const Mat4 turn = toMetres(scene_, scene::UpAxis::y); turn != Mat4(1.0)) nodes_[0]["matrix"] = matrixJson(turn);
   for (const scene::Instance& instance : scene_.instances) addInstance(instance);
   // Names that are not UTF-8 are mended, not refused.
   const std::string text = document().dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string chunks;
-  if (text.size() + binary_.size() + 64 > kMaxBytes) return fail(ErrorCode::output, "is too large for a .glb file");
-  appendChunk(chunks, "JSON", text, ' ');
-  if (!binary_.empty()) appendChunk(chunks, std::string_view("BIN\0", 4), std::move(binary_), '\0');
-  std::string bytes = "glTF";
-  appendWord(bytes, 2);
-  appendWord(bytes, 12 + chunks.size());
-  return Document{bytes + chunks, {}, {}};
+  auto bytes = glbFile(text, std::move(binary_));
+  if (!bytes) return tl::unexpected(bytes.error());
+  return Document{std::move(*bytes), {}, {}};
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ struct Factor {
 class Exchange {
  public:
   /// REQUIRES: outlived by all of these.
-  Exchange(const trace::Occlusion& occlusion, const Subdivision& mesh, const Patches& patches, const VisibilityAccuracy& accuracy,
-           std::size_t memory);
+  Exchange(const trace::Occlusion& occlusion, const Subdivision& mesh, const Patches& patches,
+           const VisibilityAccuracy& accuracy, std::size_t memory);
 
   /// Of a side of a patch, all that are not 0; valid until the next call. Errors: ErrorCode::device when memory runs out.
   [[nodiscard]] Result<std::span<const Factor>> from(Side emitter);
@@ -74,7 +74,8 @@ void Exchange::factors(const Emitter& emitter, std::uint32_t vertex, const Fn& t
   }
   const double lift = liftOf(occlusion_, v.triangle, v.sample);
   if (highest > lift)
-    if (const double f = visibleFactor(occlusion_, {v.sample, normal, lift}, emitter, accuracy_); f > 0.0) take(2 * vertex, f);
+    if (const double f = visibleFactor(occlusion_, {v.sample, normal, lift}, emitter, accuracy_); f > 0.0)
+      take(2 * vertex, f);
   if (lowest < -lift)
     if (const double f = visibleFactor(occlusion_, {v.sample, -normal, lift}, emitter, accuracy_); f > 0.0)
       take(2 * vertex + 1, f);

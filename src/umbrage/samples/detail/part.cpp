@@ -42,6 +42,11 @@ std::uint32_t SceneBuilder::material(std::string name, std::uint32_t srgb, doubl
   return static_cast<std::uint32_t>(scene_.materials.size() - 1);
 }
 
+void SceneBuilder::fill(std::uint32_t material, const Vec3& filter, double ior) {
+  scene_.materials[material].filter = filter;
+  scene_.materials[material].ior = ior;
+}
+
 std::uint32_t SceneBuilder::share(Part part) {
   scene_.meshes.push_back(std::make_shared<const mesh::Mesh>(std::move(part).take()));
   return static_cast<std::uint32_t>(scene_.meshes.size() - 1);

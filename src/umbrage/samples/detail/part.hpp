@@ -33,6 +33,12 @@ class SceneBuilder {
 
   /// `srgb`: 0xRRGGBB as on the screen.
   std::uint32_t material(std::string name, std::uint32_t srgb, double opacity = 1.0);
+  /// Of a material: light that it gives off; linear.
+  void shine(std::uint32_t material, const Vec3& emission) { scene_.materials[material].emission = emission; }
+  void mirror(std::uint32_t material, double part) { scene_.materials[material].mirror = part; }
+  /// Its closed surfaces hold something clear: what passes is `filter`, bent by `ior`.
+  void fill(std::uint32_t material, const Vec3& filter, double ior);
+  void light(scene::Light light) { scene_.lights.push_back(std::move(light)); }
   /// A mesh that several instances share.
   std::uint32_t share(Part part);
   void place(std::string path, std::uint32_t mesh, const Mat4& toWorld);

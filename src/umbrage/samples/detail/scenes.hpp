@@ -9,5 +9,7 @@ namespace umbrage::samples::detail {
 [[nodiscard]] scene::Scene industrial();
 [[nodiscard]] scene::Scene building();
 [[nodiscard]] scene::Scene pavilion();
+[[nodiscard]] scene::Scene cornell();
+[[nodiscard]] scene::Scene stillLife();
 
 }  // namespace umbrage::samples::detail

@@ -1,6 +1,7 @@
 #include "umbrage/techniques/cpu/registry.hpp"
 
 #include "umbrage/techniques/cpu/detail/hybrid_cpu.hpp"
+#include "umbrage/techniques/cpu/detail/radiosity.hpp"
 #include "umbrage/techniques/cpu/detail/ray_traced.hpp"
 #include "umbrage/techniques/cpu/detail/soft.hpp"
 #include "umbrage/techniques/cpu/detail/svbsp.hpp"
@@ -22,7 +23,8 @@ std::vector<shadow::TechniqueEntry> cpuTechniques() {
                                  detail::makeHybridCpu, detail::makeTransparentCpu}),
           detail::softTechnique({"soft_rays", "The same by rays alone: the truth for soft_cpu, given samples enough.",
                                  detail::makeRayTraced, detail::makeTransparentRays}),
-          {detail::svbspTraits(), detail::makeSvbsp}};
+          {detail::svbspTraits(), detail::makeSvbsp},
+          {detail::radiosityTraits(), [] { return detail::makeRadiosity(); }}};
 }
 
 }  // namespace umbrage::techniques
