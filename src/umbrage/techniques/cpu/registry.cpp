@@ -2,6 +2,8 @@
 
 #include "umbrage/techniques/cpu/detail/hybrid_cpu.hpp"
 #include "umbrage/techniques/cpu/detail/ray_traced.hpp"
+#include "umbrage/techniques/cpu/detail/scanline.hpp"
+#include "umbrage/techniques/cpu/detail/scanline_projected.hpp"
 #include "umbrage/techniques/cpu/detail/soft.hpp"
 #include "umbrage/techniques/cpu/detail/transparent_cpu.hpp"
 #include "umbrage/techniques/cpu/detail/transparent_rays.hpp"
@@ -20,7 +22,9 @@ std::vector<shadow::TechniqueEntry> cpuTechniques() {
                                  "shadows, on the processor.",
                                  detail::makeHybridCpu, detail::makeTransparentCpu}),
           detail::softTechnique({"soft_rays", "The same by rays alone: the truth for soft_cpu, given samples enough.",
-                                 detail::makeRayTraced, detail::makeTransparentRays})};
+                                 detail::makeRayTraced, detail::makeTransparentRays}),
+          {detail::scanlineTraits(), detail::makeScanline},
+          {detail::scanlineProjectedTraits(), detail::makeScanlineProjected}};
 }
 
 }  // namespace umbrage::techniques
