@@ -3,6 +3,8 @@
 #include "umbrage/techniques/cpu/detail/hybrid_cpu.hpp"
 #include "umbrage/techniques/cpu/detail/radiosity.hpp"
 #include "umbrage/techniques/cpu/detail/ray_traced.hpp"
+#include "umbrage/techniques/cpu/detail/scanline.hpp"
+#include "umbrage/techniques/cpu/detail/scanline_projected.hpp"
 #include "umbrage/techniques/cpu/detail/soft.hpp"
 #include "umbrage/techniques/cpu/detail/svbsp.hpp"
 #include "umbrage/techniques/cpu/detail/transparent_cpu.hpp"
@@ -24,7 +26,9 @@ std::vector<shadow::TechniqueEntry> cpuTechniques() {
           detail::softTechnique({"soft_rays", "The same by rays alone: the truth for soft_cpu, given samples enough.",
                                  detail::makeRayTraced, detail::makeTransparentRays}),
           {detail::svbspTraits(), detail::makeSvbsp},
-          {detail::radiosityTraits(), [] { return detail::makeRadiosity(); }}};
+          {detail::radiosityTraits(), [] { return detail::makeRadiosity(); }},
+          {detail::scanlineTraits(), detail::makeScanline},
+          {detail::scanlineProjectedTraits(), detail::makeScanlineProjected}};
 }
 
 }  // namespace umbrage::techniques
