@@ -71,6 +71,15 @@ double largestError(const SunArc& arc, const Height& height, double low, double 
   return largest;
 }
 
+// Towards a sun of this declination at the true sun's hour angle.
+Vec3 kept(const sun::Place& place, sun::Instant instant, Angle declination) {
+  const Angle h = sun::hourAngle(place, instant);
+  const double sinLatitude = sin(place.latitude), cosLatitude = cos(place.latitude);
+  const double sinDeclination = sin(declination), cosDeclination = cos(declination);
+  return {-cosDeclination * sin(h), sinDeclination * cosLatitude - cosDeclination * cos(h) * sinLatitude,
+          sinDeclination * sinLatitude + cosDeclination * cos(h) * cosLatitude};
+}
+
 double bounded(double h) { return std::clamp(h, -kPi, kPi); }
 
 }  // namespace
@@ -335,6 +344,13 @@ double SunLeg::time(double h) const {
 
 // ---- the course
 
+Angle declinationAt(sun::Instant instant) {
+  // At a pole the elevation is the declination, but for the parallax.
+  constexpr Angle kParallax = Angle::degrees(8.794143 / 3600.0);
+  const Angle seen = sun::sunPosition({Angle::degrees(90.0), Angle{}}, instant).elevation;
+  return seen + kParallax * cos(seen);
+}
+
 Vec3 SunCourse::at(double secondsFromStart) const {
   const double x = (secondsFromStart + kMarginSeconds) / kStepSeconds;
   const double cell = std::clamp(std::floor(x), 2.0, double(samples_.size()) - 4.0);
@@ -359,7 +375,8 @@ SunCourse SunCourse::make(const sun::Place& place, const TimeSpan& span, const S
   SunCourse course;
   course.place_ = place, course.span_ = span, course.model_ = model;
   for (sun::Instant t = span.from - kSampleMargin; t <= span.to + kSampleMargin; t += kSampleStep)
-    course.samples_.push_back(sun::eastNorthUp(sun::sunPosition(place, t)));
+    course.samples_.push_back(model.declination ? kept(place, t, *model.declination)
+                                                : sun::eastNorthUp(sun::sunPosition(place, t)));
   CourseMaker{course, Axes(place.latitude)}.make();
   return course;
 }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,14 +32,19 @@ inline constexpr Angle kSemiDiameter = Angle::degrees(0.267);
 struct SunModel {
   sun::Refraction refraction = sun::Refraction::none;
   SunPoint point = SunPoint::centre;
+  /// The sun keeps this declination, as the diagrams of some rules have it, without parallax; empty: it moves.
+  std::optional<Angle> declination = {};
 };
+
+/// The sun's declination at an instant, geocentric, within 0.0005 degrees.
+[[nodiscard]] Angle declinationAt(sun::Instant instant);
 
 namespace detail {
 struct SunLeg;
 }
 
 /// The sun's way over a place during a stretch of time, continuous: declination, distance and refraction move.
-/// 1. Within 1e-8 radians of sun::sunPosition (0.0002 s of the sun's motion).
+/// 1. Within 1e-8 radians of sun::sunPosition (0.0002 s of the sun's motion), but where the model fixes the declination.
 /// 2. The sun is up where the chosen point of its disc is above the true horizon, lifted by refraction where that is asked for.
 class SunCourse {
  public:

@@ -57,4 +57,9 @@ class Grid {
 /// a seam.
 [[nodiscard]] Region unite(const std::vector<Loop>& loops, const Grid& grid);
 
+/// Where the winding numbers of `loops` are not zero and those of `others` are, or both are not. Polygons narrower than a step are left
+/// out: they are the rounding of a border that both have.
+enum class Set { difference, intersection };
+[[nodiscard]] std::vector<Loop> combine(const std::vector<Loop>& loops, const std::vector<Loop>& others, Set set);
+
 }  // namespace umbrage::outline::detail

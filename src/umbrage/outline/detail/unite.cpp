@@ -45,6 +45,15 @@ void collect(const PolyNode& parent, const Grid& grid, Region& region) {
   }
 }
 
+void addLoops(ClipperLib::Clipper& clipper, const std::vector<Loop>& loops, ClipperLib::PolyType role) {
+  Path path;
+  for (const Loop& loop : loops) {
+    path.clear();
+    for (const GridPoint& p : loop) path.emplace_back(p.x, p.y);
+    clipper.AddPath(path, role, true);
+  }
+}
+
 }  // namespace
 
 Grid::Grid(const Extent& extent) {
@@ -63,17 +72,28 @@ GridPoint Grid::snap(const Vec2& p) const {
 
 Region unite(const std::vector<Loop>& loops, const Grid& grid) {
   ClipperLib::Clipper clipper;
-  Path path;
-  for (const Loop& loop : loops) {
-    path.clear();
-    for (const GridPoint& p : loop) path.emplace_back(p.x, p.y);
-    clipper.AddPath(path, ClipperLib::ptSubject, true);
-  }
+  addLoops(clipper, loops, ClipperLib::ptSubject);
   ClipperLib::PolyTree tree;
   clipper.Execute(ClipperLib::ctUnion, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
   Region region;
   collect(tree, grid, region);
   return region;
+}
+
+std::vector<Loop> combine(const std::vector<Loop>& loops, const std::vector<Loop>& others, Set set) {
+  ClipperLib::Clipper clipper;
+  addLoops(clipper, loops, ClipperLib::ptSubject);
+  addLoops(clipper, others, ClipperLib::ptClip);
+  ClipperLib::Paths paths;
+  clipper.Execute(set == Set::difference ? ClipperLib::ctDifference : ClipperLib::ctIntersection, paths,
+                  ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+  std::vector<Loop> out;
+  for (const Path& path : paths) {
+    if (isSeam(path)) continue;
+    Loop& loop = out.emplace_back();
+    for (const auto& p : path) loop.push_back({p.X, p.Y});
+  }
+  return out;
 }
 
 }  // namespace umbrage::outline::detail
