@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <bit>
 #include <cerrno>
 #include <cmath>
 #include <system_error>
@@ -28,6 +29,9 @@ Result<void> checkOptions(const LoadOptions& options) {
   for (const double height : {options.defaultHeight.value_or(1.0), options.floorHeight})
     if (!(height > 0.0 && std::isfinite(height)))
       return fail(ErrorCode::usage, "the height of a building or floor must be a positive number of metres");
+  if (options.alphaTexels < 1 || options.alphaTexels > 4096 ||
+      !std::has_single_bit(static_cast<unsigned>(options.alphaTexels)))
+    return fail(ErrorCode::usage, "cells of a texture must be 1, 2, 4, .. or 4096 texels on a side");
   if (options.timeLimit.count() <= 0) return fail(ErrorCode::usage, "the time limit must be positive");
   return {};
 }
@@ -53,6 +57,8 @@ detail::Hints hintsOf(const LoadOptions& options) {
   detail::Hints hints{options.lod, options.crs, options.heightProperty, options.defaultHeight, options.floorHeight};
   if (const auto& t = options.tile) hints.tile = {t->column, t->row, t->columns, t->rows, t->leastSlope, t->highest};
   hints.inspectOnly = options.inspectOnly;
+  hints.alphaTriangles = options.alphaTriangles;
+  hints.alphaLevel = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(options.alphaTexels)));
   return hints;
 }
 

@@ -24,23 +24,31 @@ struct RasterTile {
 
 /// What the caller knows better than the file, and what reading may cost.
 struct LoadOptions {
-  std::optional<scene::UpAxis> up;            ///< instead of the format's own
-  std::optional<double> metresPerUnit;        ///< instead of the format's own; positive and finite
-  std::optional<Angle> north;                 ///< true north lies this much clockwise of the frame's north
-  std::optional<std::string> lod;             ///< CityJSON: this level of detail instead of each object's highest
-  std::optional<std::string> crs;  ///< what the coordinates are, instead of what the file says: "EPSG:28992", or "local", metres
+  std::optional<scene::UpAxis> up;      ///< instead of the format's own
+  std::optional<double> metresPerUnit;  ///< instead of the format's own; positive and finite
+  std::optional<Angle> north;           ///< true north lies this much clockwise of the frame's north
+  std::optional<std::string> lod;       ///< CityJSON: this level of detail instead of each object's highest
+  std::optional<std::string>
+      crs;  ///< what the coordinates are, instead of what the file says: "EPSG:28992", or "local", metres
   std::optional<std::string> heightProperty;  ///< GeoJSON: this property alone is the height
   std::optional<double> defaultHeight;        ///< GeoJSON: metres, for footprints without height and floors; positive
   double floorHeight = 3.0;                   ///< GeoJSON: metres from floor to floor; positive
   std::optional<RasterTile> tile;             ///< height rasters: only this
-  bool inspectOnly = false;                   ///< for inspectRaster
-  std::chrono::milliseconds timeLimit{9000};  ///< wall clock for the whole call
+  /// glTF: textures that let something through may cut triangles into so many pieces, all instances counted; 0: they stay whole, by the
+  /// mean of their texture.
+  std::size_t alphaTriangles = 250'000;
+  int alphaTexels = 1;       ///< glTF: along cells of at least so many texels on a side; a power of two up to 4096
+  bool inspectOnly = false;  ///< for inspectRaster
+  std::chrono::milliseconds timeLimit{9000};          ///< wall clock for the whole call
   std::size_t memoryLimit = std::size_t{1800} << 20;  ///< bytes of address space for the parsers
 };
 
 /// More triangles than this, all instances counted, are refused as too large.
 inline constexpr std::size_t kMaxTriangles = 20'000'000;
 inline constexpr std::size_t kMaxInstances = 1'000'000;
+
+/// So begin those of Scene::warnings that say what became of textures' alpha.
+inline constexpr std::string_view kAlphaNote = "alpha of textures: ";
 
 /// Reads a scene file: glTF 2.0 (.gltf .glb), Wavefront .obj, .ply, .stl, .off, .3ds, .ifc, .x3d, Open Inventor .iv, VRML .wrl,
 /// CityJSON (.json), CityJSONSeq (.jsonl), footprints with heights in GeoJSON (.geojson .json) and height

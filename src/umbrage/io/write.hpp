@@ -19,7 +19,8 @@ namespace umbrage::io {
 /// 3. Positions: .glb and .iv in single precision; a mesh that it does not hold exactly is stored around its middle, with a
 ///    translation in double precision, and is off by at most 2^-24 of its size. .obj in double precision. CityJSON in whole
 ///    multiples of 2^-k m, with the smallest k that loses nothing, or 2^-20 m (a micrometre) where none does.
-/// 4. Colour, opacity and the names of materials are kept (sRGB in .iv, .obj and CityJSON; linear in .glb).
+/// 4. Colour, opacity and the names of materials are kept (sRGB in .iv, .obj and CityJSON; linear in .glb). Material::filter is kept in
+///    .glb alone, as a remark that loadScene reads; the others have no place for it, and what passes is (1 - opacity) x colour again.
 /// 5. CityJSON: top levels are Buildings, what is below them BuildingParts; a part whose pieces are all closed and wound outwards
 ///    is one Solid for each piece, any other a MultiSurface.
 /// 6. loadScene gives the names of parts back as they were, but: .obj has '_' for '/' and blanks; CityJSON numbers levels whose

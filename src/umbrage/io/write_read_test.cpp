@@ -87,6 +87,22 @@ std::vector<std::string> materialNamesOf(const scene::Scene& s) {
   return names;
 }
 
+TEST(WriteRead, GlbKeepsFiltersAndOthersTheirOpacity) {
+  auto scene = *samples::make("courtyard");
+  scene.materials.resize(std::max<std::size_t>(scene.materials.size(), 3));
+  scene.materials[0].filter = Vec3(0.25, 0.5, 0.125), scene.materials[0].opacity = 0.5;
+  scene.materials[1].filter = Vec3(1.0), scene.materials[1].opacity = 0.0;
+  scene.materials[2].opacity = 0.5;
+  const auto back = returned(scene, "glb");
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_LT(glm::length(scene::transmittance(back.materials[i]) - scene::transmittance(scene.materials[i])), 1e-9);
+  EXPECT_EQ(back.materials[0].filter, scene.materials[0].filter);
+  EXPECT_FALSE(back.materials[2].filter);
+  for (const char* extension : {"iv", "obj", "city.json"})
+    for (const scene::Material& m : returned(scene, extension).materials)
+      EXPECT_TRUE(!m.filter || m.opacity == 0.0) << extension;
+}
+
 using Case = std::tuple<std::string, std::string>;
 std::string caseName(const testing::TestParamInfo<Case>& each) {
   const auto& [sample, extension] = each.param;

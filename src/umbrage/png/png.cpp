@@ -95,18 +95,25 @@ Result<std::vector<std::uint8_t>> encode(const image::RgbImage& picture) { retur
 Result<image::RgbaImage> read(const std::filesystem::path& path) {
   const auto bytes = readFile(path);
   if (!bytes) return tl::unexpected(bytes.error());
+  auto picture = decode(*bytes);
+  if (!picture) return fail(picture.error().code, picture.error().message, path.string());
+  return picture;
+}
+
+Result<image::RgbaImage> decode(std::span<const std::byte> bytes, std::size_t mostPixels) {
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_memory(&header, bytes->data(), bytes->size()) == 0)
-    return fail(ErrorCode::input, std::string("is not a readable PNG: ") + header.message, path.string());
-  if (header.width > kLargestSide || header.height > kLargestSide) {
+  if (png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()) == 0)
+    return fail(ErrorCode::input, std::string("is not a readable PNG: ") + header.message);
+  const bool large = header.width > kLargestSide || header.height > kLargestSide;
+  if (large || std::size_t{header.width} * header.height > mostPixels) {
     png_image_free(&header);
-    return fail(ErrorCode::input, "is larger than 16384 pixels on a side", path.string());
+    return fail(ErrorCode::input, large ? "is larger than 16384 pixels on a side" : "has too many pixels");
   }
   header.format = PNG_FORMAT_RGBA;
   image::RgbaImage picture(static_cast<int>(header.width), static_cast<int>(header.height));
   if (png_image_finish_read(&header, nullptr, picture.pixels().data(), 0, nullptr) == 0)
-    return fail(ErrorCode::input, std::string("is a broken PNG: ") + header.message, path.string());
+    return fail(ErrorCode::input, std::string("is a broken PNG: ") + header.message);
   return picture;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,5 +30,8 @@ struct Text {
 
 /// Any PNG, converted to 8-bit RGBA. Errors: not a PNG, broken, larger than 16384 pixels on a side.
 [[nodiscard]] Result<image::RgbaImage> read(const std::filesystem::path& path);
+/// The same of a file's bytes. Errors: the same, and more than `mostPixels` in all.
+[[nodiscard]] Result<image::RgbaImage> decode(std::span<const std::byte> bytes,
+                                              std::size_t mostPixels = std::size_t{1} << 28);
 
 }  // namespace umbrage::png

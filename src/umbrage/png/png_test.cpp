@@ -42,6 +42,17 @@ TEST(Png, RemarksStandInTheFileAndChangeNoPixel) {
             text.npos);
 }
 
+TEST(Png, BytesInMemoryAreReadTooUpToALimit) {
+  const auto path = temporary("umbrage_memory.png");
+  ASSERT_TRUE(write(path, image::GreyImage(6, 5, 77)));
+  const auto bytes = readFile(path);
+  ASSERT_TRUE(bytes);
+  EXPECT_EQ(decode(*bytes).value()(5, 4), (image::Rgba8{77, 77, 77, 255}));
+  EXPECT_TRUE(decode(*bytes, 30));
+  EXPECT_FALSE(decode(*bytes, 29));
+  EXPECT_FALSE(decode(std::span(*bytes).first(40)));
+}
+
 TEST(Png, BrokenFilesAndEmptyPicturesAreErrors) {
   const auto path = temporary("umbrage_broken.png");
   ASSERT_TRUE(writeFile(path, "not a png"));

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <variant>
 
+#include "umbrage/shadow/ball_points.hpp"
+
 namespace umbrage::shadow {
 namespace {
 
@@ -98,6 +100,11 @@ struct Maker {
     out.light.shape = oneSided(l.centre + p.x * l.u + p.y * l.v, glm::cross(l.u, l.v), room);
   }
   void operator()(const scene::SphereLight& l) const {
+    out.ball = l;
+    if (i < kBallPoints) {
+      out.light.shape = scene::PointLight{l.centre + l.radius * ballPoint(i)};
+      return;
+    }
     // Along each way through the ball the points lie as those of a pendulum.
     const Vec3 view = room.empty() ? Vec3(0.0) : room.centre() - l.centre;
     const Vec3 axis = glm::dot(view, view) > 0.0 ? glm::normalize(view) : Vec3(0, 0, 1);
@@ -106,7 +113,6 @@ struct Maker {
     const double half = std::sqrt(std::max(0.0, 1.0 - glm::dot(p, p)));
     const double along = half * std::cos(kPi * (sobolThird(static_cast<std::uint32_t>(i)) + 0x1p-17));
     out.light.shape = scene::PointLight{l.centre + l.radius * (p.x * across.u + p.y * across.v + along * axis)};
-    out.ball = l;
   }
   void operator()(const scene::SunLight& l) const {
     const Vec3 axis = glm::normalize(l.direction);

@@ -24,8 +24,9 @@ struct LightSample {
 /// `room`: holds all that is lit, in world coordinates; where it lies before a flat light, its points need not be told that they shine to one side
 /// only.
 ///
-/// A ball is filled with points so that, seen from afar from anywhere, they lie evenly over its disc: with density 1 / sqrt(R^2 - r^2); seen from the middle of
-/// the room they are those of a disc. Seen
+/// A ball is what is seen of it: every direction to it counts alike. It is filled with points so that, seen from afar from anywhere, they lie evenly over
+/// its disc, with density 1 / sqrt(R^2 - r^2). The first 256 were optimised for that from all directions at once, where points on its surface would be
+/// wasted on the averted half and a (0, 2)-sequence is even from one side only; those after them are a (0, 2)-sequence seen from the middle of the room. Seen
 /// from nearer, a ray that passes the centre at b from a distance d meets (d^2 + R^2 / 2 - 3 b^2 / 2) / d^2 of what it should; that is what the
 /// weight takes back.
 /// Source: the (0, 2)-sequence of van der Corput and Sobol', T. Kollig and A. Keller, 2002; discs after P. Shirley and K. Chiu, 1997.

@@ -20,6 +20,10 @@ std::optional<double> numberIn(std::string_view text) {
   return read.ec == std::errc() && read.ptr == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
+std::size_t countIn(std::string_view text, std::size_t otherwise) {
+  return static_cast<std::size_t>(std::clamp(numberIn(text).value_or(double(otherwise)), 0.0, 1e9));
+}
+
 std::optional<TileHint> tileIn(std::string_view text) {
   std::array<double, 6> numbers{};
   for (double& number : numbers) {
@@ -47,6 +51,8 @@ std::vector<std::string> wordsOf(const Hints& hints) {
                     std::to_string(hints.tile->columns) + "," + std::to_string(hints.tile->rows) + "," +
                     numberText(hints.tile->slope) + "," + numberText(hints.tile->highest));
   if (hints.inspectOnly) words.push_back("inspect=");
+  words.push_back("alpha-triangles=" + std::to_string(hints.alphaTriangles));
+  words.push_back("alpha-level=" + std::to_string(hints.alphaLevel));
   return words;
 }
 
@@ -61,6 +67,8 @@ Hints hintsOf(std::span<const std::string> words) {
     if (key == "height-property") hints.heightProperty = value;
     if (key == "default-height") hints.defaultHeight = numberIn(value);
     if (key == "tile") hints.tile = tileIn(value);
+    if (key == "alpha-triangles") hints.alphaTriangles = countIn(value, hints.alphaTriangles);
+    if (key == "alpha-level") hints.alphaLevel = countIn(value, hints.alphaLevel);
     if (key == "inspect") hints.inspectOnly = true;
     if (key == "floor-height") hints.floorHeight = numberIn(value).value_or(hints.floorHeight);
   }

@@ -23,6 +23,8 @@ struct Hints {
   double floorHeight = 3.0;
   std::optional<TileHint> tile = std::nullopt;
   bool inspectOnly = false;
+  std::size_t alphaTriangles = 250'000;
+  std::size_t alphaLevel = 0;  ///< cells of 2^this texels on a side
 };
 
 /// As "key=value" words, and back. Words that are not known are passed over; a number that is none is left at its default.

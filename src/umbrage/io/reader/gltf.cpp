@@ -1,4 +1,4 @@
-// glTF 2.0, text and binary, through tinygltf. Textures, cameras, lights, skins, morphing and animation are not read.
+// glTF 2.0, text and binary, through tinygltf. Of textures the alpha is read. Cameras, lights, skins, morphing and animation are not.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,10 +6,12 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <tuple>
 
 #include "umbrage/base/file.hpp"
 #include "umbrage/io/reader/files.hpp"
-#include "umbrage/io/reader/gltf_accessor.hpp"
+#include "umbrage/io/reader/gltf_alpha.hpp"
+#include "umbrage/io/reader/gltf_primitive.hpp"
 #include "umbrage/io/reader/read.hpp"
 #include "umbrage/io/reader/tidy.hpp"
 
@@ -20,7 +22,6 @@ namespace {
 constexpr std::array<std::string_view, 8> kHarmless = {
     "KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu", "EXT_texture_webp",
     "MSFT_texture_dds",      "KHR_lights_punctual",   "KHR_xmp_json_ld",    "KHR_animation_pointer"};
-constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
 constexpr std::string_view kInstancing = "EXT_mesh_gpu_instancing";
 
 bool isHarmless(std::string_view extension) {
@@ -30,7 +31,10 @@ bool isHarmless(std::string_view extension) {
 
 bool isCompression(std::string_view extension) { return extension == kDraco || extension == "EXT_meshopt_compression"; }
 
-bool skipImage(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
+// Pictures in buffers and files of their own are read where they are needed (gltf_textures.cpp).
+bool keepEmbedded(tinygltf::Image* image, const int index, std::string*, std::string*, int, int,
+                  const unsigned char* bytes, int size, void* pictures) {
+  if (image->bufferView < 0 && size > 0) (*static_cast<EmbeddedPictures*>(pictures))[index].assign(bytes, bytes + size);
   return true;
 }
 
@@ -70,7 +74,7 @@ std::string firstLine(const std::string& text) {
   return tag == std::string::npos ? line : line.substr(tag + 2);
 }
 
-Result<tinygltf::Model> parse(const Request& request) {
+Result<tinygltf::Model> parse(const Request& request, EmbeddedPictures& pictures) {
   const auto bytes = readJsonBytes(request.file);
   if (!bytes) return tl::unexpected(bytes.error());
   const bool binary = isBinary(*bytes);
@@ -78,7 +82,7 @@ Result<tinygltf::Model> parse(const Request& request) {
     if (auto fine = checkJsonDepth(jsonOf(*bytes)); !fine) return tl::unexpected(fine.error());
   auto folder = request.file.parent_path();
   tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(skipImage, nullptr);
+  loader.SetImageLoader(keepEmbedded, &pictures);
   loader.SetFsCallbacks({existsInside, tinygltf::ExpandFilePath, readInside, refuseToWrite, &folder});
   tinygltf::Model model;
   std::string errors, warnings;
@@ -108,10 +112,6 @@ double numberOf(const tinygltf::Material& given, const char* extension, const ch
   return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
 }
 
-double transmissionOf(const tinygltf::Material& given) {
-  return std::clamp(numberOf(given, "KHR_materials_transmission", "transmissionFactor", 0.0), 0.0, 1.0);
-}
-
 // What glTF says beyond colour: metals mirror as far as they are smooth, and only what has a volume bends light.
 void addOptics(const tinygltf::Material& given, scene::Material& m) {
   if (given.emissiveFactor.size() == 3)
@@ -125,7 +125,27 @@ void addOptics(const tinygltf::Material& given, scene::Material& m) {
     m.ior = numberOf(given, "KHR_materials_ior", "ior", 1.5);
 }
 
-scene::Material materialOf(const tinygltf::Material& given, std::size_t index) {
+/// `part`: how much of the material's surface is there, or passes, where its texture says so; else its own numbers count.
+struct Part {
+  double value;
+  bool transmits;
+};
+
+// What writeScene noted of it.
+std::optional<Vec3> notedFilter(const tinygltf::Value& extras) {
+  if (!extras.IsObject() || !extras.Has("filter")) return std::nullopt;
+  const tinygltf::Value& filter = extras.Get("filter");
+  if (!filter.IsArray() || filter.ArrayLen() != 3) return std::nullopt;
+  Vec3 parts;
+  for (int k = 0; k < 3; ++k) {
+    if (!filter.Get(k).IsNumber()) return std::nullopt;
+    parts[k] = filter.Get(k).GetNumberAsDouble();
+  }
+  return parts;
+}
+
+scene::Material materialOf(const tinygltf::Material& given, std::size_t index,
+                           const std::optional<Part>& part = std::nullopt) {
   scene::Material m;
   m.name = given.name.empty() ? "material " + std::to_string(index) : given.name;
   addOptics(given, m);
@@ -134,8 +154,11 @@ scene::Material materialOf(const tinygltf::Material& given, std::size_t index) {
   m.colour = glm::clamp(Vec3(factor[0], factor[1], factor[2]), 0.0, 1.0);
   if (given.alphaMode == "BLEND") m.opacity = std::clamp(factor[3], 0.0, 1.0);
   if (given.alphaMode == "MASK") m.opacity = factor[3] >= given.alphaCutoff ? 1.0 : 0.0;
+  if (part && !part->transmits) m.opacity = part->value;
+  if (!part) m.filter = notedFilter(given.extras);
+  if (m.filter) return m;
   if (m.opacity == 0.0) return m;
-  if (const double transmission = transmissionOf(given); transmission > 0.0) {
+  if (const double transmission = part && part->transmits ? part->value : transmissionOf(given); transmission > 0.0) {
     // Its share of what is there passes in the colour, and is not seen of the surface itself.
     m.filter = (1.0 - m.opacity * (1.0 - transmission)) * m.colour;
     m.opacity *= 1.0 - transmission;
@@ -143,27 +166,9 @@ scene::Material materialOf(const tinygltf::Material& given, std::size_t index) {
   return m;
 }
 
-void addStrip(const std::vector<std::uint32_t>& v, std::vector<mesh::Triangle>& out) {
-  for (std::size_t i = 0; i + 2 < v.size(); ++i) out.push_back({v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]});
-}
-void addFan(const std::vector<std::uint32_t>& v, std::vector<mesh::Triangle>& out) {
-  for (std::size_t i = 1; i + 1 < v.size(); ++i) out.push_back({v[i], v[i + 1], v[0]});
-}
-void addList(const std::vector<std::uint32_t>& v, std::vector<mesh::Triangle>& out) {
-  for (std::size_t i = 0; i + 2 < v.size(); i += 3) out.push_back({v[i], v[i + 1], v[i + 2]});
-}
-
-std::vector<mesh::Triangle> assemble(int mode, const std::vector<std::uint32_t>& corners) {
-  std::vector<mesh::Triangle> triangles;
-  if (mode == TINYGLTF_MODE_TRIANGLES || mode < 0) addList(corners, triangles);
-  if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) addStrip(corners, triangles);
-  if (mode == TINYGLTF_MODE_TRIANGLE_FAN) addFan(corners, triangles);
-  return triangles;
-}
-
 class GltfReader {
  public:
-  explicit GltfReader(const tinygltf::Model& model) : model_(model) {}
+  GltfReader(const tinygltf::Model& model, const GltfAlpha& alpha) : model_(model), alpha_(alpha) {}
   Result<scene::Scene> read();
 
  private:
@@ -176,10 +181,14 @@ class GltfReader {
   Result<void> walk();
   Result<void> enter(const Visit& visit, std::vector<Visit>& stack);
   Result<std::uint32_t> meshOf(int index);
-  Result<void> addPrimitive(const tinygltf::Primitive& primitive, mesh::Mesh& m);
+  Result<void> addPrimitive(const tinygltf::Primitive& primitive, const CutPrimitive* cut, mesh::Mesh& m);
+  void addPieces(const CutPrimitive& cut, std::size_t material, mesh::Mesh& m);
+  std::uint32_t materialFor(std::size_t material, bool transmits, double part);
   void noteUnread();
 
   const tinygltf::Model& model_;
+  const GltfAlpha& alpha_;
+  std::map<std::tuple<std::size_t, bool, int>, std::uint32_t> parted_;  ///< materials of which a part is there
   scene::Scene scene_;
   std::vector<bool> visited_;
   std::map<int, std::uint32_t> meshes_;
@@ -194,6 +203,8 @@ Result<scene::Scene> GltfReader::read() {
   visited_.assign(model_.nodes.size(), false);
   if (auto walked = walk(); !walked) return tl::unexpected(walked.error());
   noteUnread();
+  for (std::string& note : alpha_.notes()) scene_.warnings.push_back(std::move(note));
+  alpha_.complaints().appendTo(scene_.warnings);
   complaints_.appendTo(scene_.warnings);
   return std::move(scene_);
 }
@@ -269,8 +280,8 @@ Result<std::uint32_t> GltfReader::meshOf(int index) {
   const tinygltf::Mesh& given = model_.meshes[static_cast<std::size_t>(index)];
   mesh::Mesh m;
   m.name = given.name.empty() ? "mesh " + std::to_string(index) : given.name;
-  for (const tinygltf::Primitive& primitive : given.primitives)
-    if (auto added = addPrimitive(primitive, m); !added)
+  for (std::size_t p = 0; p < given.primitives.size(); ++p)
+    if (auto added = addPrimitive(given.primitives[p], alpha_.find(index, p), m); !added)
       return fail(added.error().code, added.error().message,
                   "mesh " + std::to_string(index) + ", " + added.error().where);
   const auto place = static_cast<std::uint32_t>(scene_.meshes.size());
@@ -278,34 +289,22 @@ Result<std::uint32_t> GltfReader::meshOf(int index) {
   return meshes_[index] = place;
 }
 
-Result<void> GltfReader::addPrimitive(const tinygltf::Primitive& primitive, mesh::Mesh& m) {
-  if (primitive.mode >= 0 && primitive.mode < TINYGLTF_MODE_TRIANGLES) return {};  // points and lines cast no shadow
-  const auto position = primitive.attributes.find("POSITION");
-  if (position == primitive.attributes.end()) {
+Result<void> GltfReader::addPrimitive(const tinygltf::Primitive& primitive, const CutPrimitive* cut, mesh::Mesh& m) {
+  if (cut != nullptr) return addPieces(*cut, static_cast<std::size_t>(primitive.material), m), Result<void>();
+  const auto given = readPrimitive(model_, primitive);
+  if (!given) return tl::unexpected(given.error());
+  if (!*given) {
     complaints_.add("a mesh without positions is left out");
     return {};
   }
-  if (primitive.extensions.contains(std::string(kDraco)) && position->second >= 0 &&
-      static_cast<std::size_t>(position->second) < model_.accessors.size() &&
-      model_.accessors[static_cast<std::size_t>(position->second)].bufferView < 0)
-    return fail(ErrorCode::unsupported, "needs the glTF extension " + std::string(kDraco), "primitive");
-  const auto points = readPoints(model_, position->second);
-  if (!points) return tl::unexpected(points.error());
-  std::vector<std::uint32_t> corners;
-  if (primitive.indices >= 0) {
-    auto given = readIndices(model_, primitive.indices);
-    if (!given) return tl::unexpected(given.error());
-    corners = std::move(*given);
-  } else {
-    for (std::uint32_t i = 0; i < points->size(); ++i) corners.push_back(i);
-  }
+  const auto& points = (*given)->points;
   const auto base = static_cast<std::uint32_t>(m.positions.size());
-  const auto count = static_cast<std::uint32_t>(points->size());
-  m.positions.insert(m.positions.end(), points->begin(), points->end());
+  const auto count = static_cast<std::uint32_t>(points.size());
+  m.positions.insert(m.positions.end(), points.begin(), points.end());
   const bool known = primitive.material >= 0 && static_cast<std::size_t>(primitive.material) < model_.materials.size();
   const auto material =
       static_cast<std::uint32_t>(known ? static_cast<std::size_t>(primitive.material) : model_.materials.size());
-  for (const mesh::Triangle& t : assemble(primitive.mode, corners)) {
+  for (const mesh::Triangle& t : (*given)->triangles) {
     mesh::Triangle placed;
     // A corner outside this primitive must not become one of the next.
     for (int k = 0; k < 3; ++k) placed[k] = t[k] < count ? base + t[k] : 0xffffffffU;
@@ -315,21 +314,45 @@ Result<void> GltfReader::addPrimitive(const tinygltf::Primitive& primitive, mesh
   return {};
 }
 
+// tidy() makes the corners that pieces share one again.
+void GltfReader::addPieces(const CutPrimitive& cut, std::size_t material, mesh::Mesh& m) {
+  for (std::size_t t = 0; t < cut.pieces.triangles.size(); ++t) {
+    const auto base = static_cast<std::uint32_t>(m.positions.size());
+    const auto& corners = cut.pieces.triangles[t];
+    m.positions.insert(m.positions.end(), corners.begin(), corners.end());
+    m.triangles.push_back({base, base + 1, base + 2});
+    m.materials.push_back(materialFor(material, cut.transmits, cut.pieces.parts[t]));
+  }
+}
+
+// In steps of 1/64, so that there are not as many materials as triangles.
+std::uint32_t GltfReader::materialFor(std::size_t material, bool transmits, double part) {
+  constexpr int kSteps = 64;
+  const int step = static_cast<int>(std::lround(part * kSteps));
+  const auto [place, isNew] = parted_.try_emplace({material, transmits, step}, 0);
+  if (!isNew) return place->second;
+  scene::Material m = materialOf(model_.materials[material], material, Part{double(step) / kSteps, transmits});
+  if (m.opacity < 1.0) m.name += " " + std::to_string(step) + "/" + std::to_string(kSteps);
+  place->second = static_cast<std::uint32_t>(scene_.materials.size());
+  scene_.materials.push_back(std::move(m));
+  return place->second;
+}
+
 void GltfReader::noteUnread() {
   for (const std::string& extension : model_.extensionsUsed)
     if (extension == "KHR_lights_punctual") complaints_.add(extension + " is not read");
-  for (const tinygltf::Material& material : model_.materials)
-    if (material.alphaMode != "OPAQUE" && material.pbrMetallicRoughness.baseColorTexture.index >= 0)
-      complaints_.add("what textures let through is not read: materials do so as a whole");
   if (!model_.animations.empty()) complaints_.add("animations are not read");
 }
 
 }  // namespace
 
 Result<scene::Scene> readGltf(const Request& request) {
-  const auto model = parse(request);
+  EmbeddedPictures pictures;
+  const auto model = parse(request, pictures);
   if (!model) return tl::unexpected(model.error());
-  return GltfReader(*model).read();
+  const GltfAlpha alpha(*model, {*model, pictures, request.file.parent_path()},
+                        {request.hints.alphaTriangles, request.hints.alphaLevel});
+  return GltfReader(*model, alpha).read();
 }
 
 }  // namespace umbrage::io::reader

@@ -137,6 +137,15 @@ Result<std::vector<Vec3>> readPoints(const tinygltf::Model& model, int accessor)
   return points;
 }
 
+Result<std::vector<Vec2>> readCoordinates(const tinygltf::Model& model, int accessor) {
+  const auto values = readValues(model, accessor, 2);
+  if (!values) return tl::unexpected(values.error());
+  std::vector<Vec2> coordinates;
+  coordinates.reserve(values->size() / 2);
+  for (std::size_t i = 0; i + 1 < values->size(); i += 2) coordinates.emplace_back((*values)[i], (*values)[i + 1]);
+  return coordinates;
+}
+
 Result<std::vector<std::uint32_t>> readIndices(const tinygltf::Model& model, int accessor) {
   const auto values = readValues(model, accessor, 1);
   if (!values) return tl::unexpected(values.error());

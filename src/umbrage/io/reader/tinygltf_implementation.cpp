@@ -8,3 +8,9 @@
 #define TINYGLTF_IMPLEMENTATION
 #include "umbrage/io/reader/tinygltf.hpp"
 #pragma GCC diagnostic pop
+
+namespace umbrage::io::reader {
+
+std::string decodedUri(const std::string& uri) { return tinygltf::dlib::urldecode(uri); }
+
+}  // namespace umbrage::io::reader

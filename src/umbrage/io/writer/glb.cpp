@@ -53,6 +53,8 @@ Json materialJson(const scene::Material& material) {
   }
   json["doubleSided"] = true;
   if (material.opacity < 1.0) json["alphaMode"] = "BLEND";
+  // No extension knows a filter of its own: KHR_materials_transmission filters with the base colour.
+  if (material.filter) json["extras"]["filter"] = vectorJson(*material.filter);
   return json;
 }
 
