@@ -9,6 +9,7 @@
 #include "json.hpp"
 #include "outputs.hpp"
 #include "umbrage/png/png.hpp"
+#include "umbrage/shadow/unshadowed.hpp"
 
 namespace umbrage::cli {
 namespace {
@@ -30,6 +31,7 @@ struct CompareOptions {
 struct Comparison {
   std::string technique, against;  ///< names, "auto" resolved
   std::vector<Agreement> lights;
+  std::size_t unknown = 0;  ///< pixels on which one of them knows no shadows
 
   [[nodiscard]] bool agree() const {
     return std::all_of(lights.begin(), lights.end(), [](const auto& light) { return light.holds(); });
@@ -63,6 +65,9 @@ std::string comparisonText(const Comparison& comparison, const View& view) {
         fmt::format("light {:<3} {} of {} pixels differ, {} of them away from every edge   {}\n", i, light.differing,
                     view.camera.width * view.camera.height, light.astray, shortName(view.lights[i].name));
   }
+  if (comparison.unknown > 0)
+    text +=
+        fmt::format("not compared: {} pixels, on surfaces that have no shadows by one of them\n", comparison.unknown);
   return text + (comparison.agree() ? "they agree\n" : "they do not agree\n");
 }
 
@@ -70,7 +75,8 @@ std::string comparisonJson(const Comparison& comparison, const View& view) {
   Json json{{"technique", comparison.technique},
             {"against", comparison.against},
             {"size", {view.camera.width, view.camera.height}},
-            {"agree", comparison.agree()}};
+            {"agree", comparison.agree()},
+            {"not_compared", comparison.unknown}};
   json["lights"] = Json::array();
   for (const auto& light : comparison.lights)
     json["lights"].push_back(
@@ -89,8 +95,22 @@ Result<void> checkPicture(const std::string& path, const std::string& scene) {
   return checkOutputs({path}, scene);
 }
 
-const char* truthFor(const Drawing& drawing) {
-  return drawing.traits.soft ? kSoftTruth : drawing.traits.tinted ? kTintedTruth : kTruth;
+// Soft techniques that see no light through surfaces show hard lights as ray_traced does.
+const char* truthFor(const Drawing& drawing, const View& view) {
+  const bool soft = drawing.traits.soft && (drawing.traits.tinted || std::ranges::any_of(view.lights, scene::isArea));
+  return soft ? kSoftTruth : drawing.traits.tinted ? kTintedTruth : kTruth;
+}
+
+// Masks of which what is not known is taken from the other drawing.
+std::vector<shadow::LightMask> knownMasks(const Drawing& drawing, const Drawing& other) {
+  std::vector<shadow::LightMask> masks = drawing.shading.masks;
+  for (std::size_t i = 0; i < masks.size() && !drawing.shading.unshadowed.empty(); ++i)
+    masks[i] = shadow::whereKnown(std::move(masks[i]), drawing.shading.unshadowed, other.shading.masks[i]);
+  return masks;
+}
+
+std::size_t unknownPixels(const Drawing& drawing) {
+  return static_cast<std::size_t>(std::ranges::count(drawing.shading.unshadowed.pixels(), std::uint8_t{1}));
 }
 
 Result<shadow::EdgeFinder> edgeFinderFor(const std::shared_ptr<const shadow::Geometry>& geometry,
@@ -104,12 +124,12 @@ Result<shadow::EdgeFinder> edgeFinderFor(const std::shared_ptr<const shadow::Geo
 // The truth is the reference where it is one of the two, so that a lone wrong pixel is no edge of its own.
 Result<std::vector<Agreement>> compareDrawings(const Drawing& a, const Drawing& b, const View& view,
                                                const std::shared_ptr<const shadow::Geometry>& geometry) {
-  const auto edges = edgeFinderFor(geometry, truthFor(a));
+  const auto edges = edgeFinderFor(geometry, truthFor(a, view));
   if (!edges) return tl::unexpected(edges.error());
-  const bool swapped = a.traits.name == truthFor(a);
+  const bool swapped = a.traits.name == truthFor(a, view);
   const int tolerance = std::max(a.traits.edgeTolerancePx, b.traits.edgeTolerancePx);
-  return compareMasks((swapped ? b : a).shading.masks, (swapped ? a : b).shading.masks, {view.camera, view.lights},
-                      tolerance, *edges);
+  const auto ofA = knownMasks(a, b), ofB = knownMasks(b, a);
+  return compareMasks(swapped ? ofB : ofA, swapped ? ofA : ofB, {view.camera, view.lights}, tolerance, *edges);
 }
 
 Result<Outcome> run(const CompareOptions& options, const Console& console) {
@@ -121,7 +141,7 @@ Result<Outcome> run(const CompareOptions& options, const Console& console) {
   const auto geometry = shadow::makeGeometry(view->scene);
   const auto a = draw(options.technique, geometry, *view, console);
   if (!a) return tl::unexpected(a.error());
-  const auto b = draw(options.against.empty() ? truthFor(*a) : options.against, geometry, *view, console);
+  const auto b = draw(options.against.empty() ? truthFor(*a, *view) : options.against, geometry, *view, console);
   if (!b) return tl::unexpected(b.error());
   if (!geometry->filters.empty() && a->traits.tinted != b->traits.tinted)
     return fail(ErrorCode::usage,
@@ -130,7 +150,8 @@ Result<Outcome> run(const CompareOptions& options, const Console& console) {
   if (const auto written = writePicture(options.picture, *a, *b); !written) return tl::unexpected(written.error());
   auto lights = compareDrawings(*a, *b, *view, geometry);
   if (!lights) return tl::unexpected(lights.error());
-  const Comparison comparison{a->traits.name, b->traits.name, std::move(*lights)};
+  const Comparison comparison{a->traits.name, b->traits.name, std::move(*lights),
+                              std::max(unknownPixels(*a), unknownPixels(*b))};
   return Outcome{options.json ? comparisonJson(comparison, *view) : comparisonText(comparison, *view),
                  comparison.agree() ? 0 : 1};
 }
@@ -151,6 +172,7 @@ Run addCompare(CLI::App& app) {
   addLightOptions(app, options->view);
   addGroundOption(app, options->view);
   addSilhouetteOption(app, options->view);
+  addTechniqueOptions(app, options->view.techniques);
   addVeilOption(app, options->view);
   return [options](const Console& console) { return run(*options, console); };
 }

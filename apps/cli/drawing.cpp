@@ -12,8 +12,8 @@ Result<Drawing> draw(const std::string& technique, const std::shared_ptr<const s
   const Stage stage(console, fmt::format("shading with {}", technique));
   Drawing drawing;
   Stopwatch watch;
-  auto chosen =
-      chooseTechnique(technique, {!geometry->filters.empty(), std::ranges::any_of(view.lights, scene::isArea)});
+  auto chosen = chooseTechnique(
+      technique, {!geometry->filters.empty(), std::ranges::any_of(view.lights, scene::isArea)}, view.techniques);
   if (!chosen) return tl::unexpected(chosen.error());
   drawing.traits = chosen->technique->traits();
   if (!drawing.traits.soft && std::ranges::any_of(view.lights, scene::isArea))

@@ -18,7 +18,13 @@ Graphics findGraphics() {
   return {(*context)->renderer(), (*context)->isSoftware(), ""};
 }
 
-std::vector<shadow::TechniqueEntry> graphicsTechniques() { return techniques::openGlTechniques(); }
+std::vector<shadow::TechniqueEntry> graphicsTechniques(const TechniqueOptions& options) {
+  render::ShadowMapOptions maps;
+  maps.texels = options.mapTexels;
+  maps.filter = options.mapFilter;
+  if (options.mapBias) maps.constantBias = options.mapBias->x, maps.slopeBias = options.mapBias->y;
+  return techniques::openGlTechniques({}, options.planes, maps);
+}
 
 Result<image::RgbImage> drawOver(const image::RgbImage& picture, const std::vector<std::string>& what,
                                  const shadow::Geometry& geometry, const shadow::Frame& frame) {
@@ -31,7 +37,7 @@ Result<image::RgbImage> drawOver(const image::RgbImage& picture, const std::vect
 
 Graphics findGraphics() { return {"", false, "this build has no OpenGL"}; }
 
-std::vector<shadow::TechniqueEntry> graphicsTechniques() { return {}; }
+std::vector<shadow::TechniqueEntry> graphicsTechniques(const TechniqueOptions&) { return {}; }
 
 Result<image::RgbImage> drawOver(const image::RgbImage&, const std::vector<std::string>&, const shadow::Geometry&,
                                  const shadow::Frame&) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "technique_options.hpp"
 #include "umbrage/shadow/technique.hpp"
 
 // What a build without OpenGL has not got; the only file that knows whether it has.
@@ -18,7 +19,7 @@ struct Graphics {
 [[nodiscard]] Graphics findGraphics();
 
 /// The techniques that run on OpenGL.
-[[nodiscard]] std::vector<shadow::TechniqueEntry> graphicsTechniques();
+[[nodiscard]] std::vector<shadow::TechniqueEntry> graphicsTechniques(const TechniqueOptions& options);
 
 /// `picture` with shadow volumes ("volumes") and their edges ("silhouette") drawn over it. Errors: device.
 [[nodiscard]] Result<image::RgbImage> drawOver(const image::RgbImage& picture, const std::vector<std::string>& what,

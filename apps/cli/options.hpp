@@ -6,6 +6,7 @@
 
 #include "declare.hpp"
 #include "parse.hpp"
+#include "technique_options.hpp"
 #include "umbrage/base/angle.hpp"
 #include "umbrage/scene/scene.hpp"
 #include "umbrage/shadow/finders/finder.hpp"
@@ -59,6 +60,7 @@ struct ViewOptions {
   std::optional<Angle> smooth;  ///< the crease angle of smooth shading
   bool hideTerminator = false;
   shadow::SoftSampling soft;
+  TechniqueOptions techniques;
 };
 void addCameraOptions(CLI::App& app, ViewOptions& options);
 void addLightOptions(CLI::App& app, ViewOptions& options);
@@ -78,6 +80,7 @@ struct View {
   shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
   std::optional<int> veilLayers = {};
   shadow::SoftSampling soft = {};
+  TechniqueOptions techniques = {};
   bool detailed = false;  ///< statistics that take time of their own are wanted
   std::string cameraReason;
   std::string lightReason;

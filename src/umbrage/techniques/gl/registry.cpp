@@ -27,12 +27,16 @@ shadow::TechniqueEntry entry(shadow::Traits traits, Make make, ContextSlot slot,
 
 }  // namespace
 
-std::vector<shadow::TechniqueEntry> openGlTechniques(const render::VolumeOptions& options, const shadow::PlaneSearch& planes,
+std::vector<shadow::TechniqueEntry> openGlTechniques(const render::VolumeOptions& options,
+                                                     const shadow::PlaneSearch& planes,
                                                      const render::ShadowMapOptions& maps) {
   const auto slot = std::make_shared<std::shared_ptr<gl::Context>>();
-  return {entry(zFailTraits(), makeZFail, slot, options), entry(zPassTraits(), makeZPass, slot, options),
-          entry(zMixedTraits(), makeZMixed, slot, options), entry(zPassPlusTraits(), makeZPassPlus, slot, options),
-          entry(planarTraits(), makePlanar, slot, planes), entry(shadowMapTraits(), makeShadowMap, slot, maps),
+  return {entry(zFailTraits(), makeZFail, slot, options),
+          entry(zPassTraits(), makeZPass, slot, options),
+          entry(zMixedTraits(), makeZMixed, slot, options),
+          entry(zPassPlusTraits(), makeZPassPlus, slot, options),
+          entry(planarTraits(), makePlanar, slot, planes),
+          entry(shadowMapTraits(), makeShadowMap, slot, maps),
           entry(perspectiveShadowMapTraits(), makePerspectiveShadowMap, slot, maps)};
 }
 

@@ -284,7 +284,8 @@ TEST_P(StencilTechniques, TellWhatTheyDid) {
   EXPECT_GT(stats.lights[0].volumeTriangles, 0u);
   std::vector<std::string> names;
   for (const auto& phase : stats.phases) names.push_back(phase.name);
-  std::vector<std::string> phases{"facing", "depth", "tiles", "silhouette", "useless", "layers", "extrude", "upload", "volumes", "lit", "readback"};
+  std::vector<std::string> phases{"facing",  "depth",  "tiles",   "silhouette", "useless", "layers",
+                                  "extrude", "upload", "volumes", "lit",        "readback"};
   if (isPlain()) std::erase(phases, "tiles");
   EXPECT_EQ(names, phases);
 }
@@ -334,9 +335,11 @@ TEST_P(StencilTechniques, SurviveEmptyScenesAndOddSizes) {
   EXPECT_EQ(tooWide.error().code, ErrorCode::device);
 }
 
-constexpr std::array kVariants{"zfail", "zpass", "zmixed", "zp_plus", "zfail_face_by_face", "zfail_plain", "zpass_plain"};
+constexpr std::array kVariants{"zfail",       "zpass",      "zmixed", "zp_plus", "zfail_face_by_face",
+                               "zfail_plain", "zpass_plain"};
 INSTANTIATE_TEST_SUITE_P(Gl, StencilTechniques,
-                         ::testing::Values(reducedZFail, reducedZPass, reducedZMixed, reducedZPassPlus, zFailFaceByFace, plainZFail, plainZPass),
+                         ::testing::Values(reducedZFail, reducedZPass, reducedZMixed, reducedZPassPlus, zFailFaceByFace,
+                                           plainZFail, plainZPass),
                          [](const auto& which) { return kVariants[which.index]; });
 
 TEST(GlTechniques, AreTheWaysToCount) {
@@ -346,6 +349,7 @@ TEST(GlTechniques, AreTheWaysToCount) {
   EXPECT_EQ(entries[1].traits.name, "zpass");
   EXPECT_EQ(entries[2].traits.name, "zmixed");
   EXPECT_EQ(entries[3].traits.name, "zp_plus");
+  for (const auto& entry : entries) EXPECT_EQ(entry.traits.approximate, entry.traits.name.starts_with("shadow_map"));
 }
 
 }  // namespace
