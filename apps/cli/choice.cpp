@@ -37,9 +37,9 @@ Choice chooseAutomatically(Needs needs) {
 
 }  // namespace
 
-std::vector<shadow::TechniqueEntry> allTechniques(StencilCounter counter) {
+std::vector<shadow::TechniqueEntry> allTechniques(const TechniqueOptions& options) {
   auto entries = techniques::cpuTechniques();
-  auto graphics = graphicsTechniques(counter);
+  auto graphics = graphicsTechniques(options);
   std::move(graphics.begin(), graphics.end(), std::back_inserter(entries));
   return entries;
 }
@@ -54,9 +54,9 @@ Result<std::string> parseTechnique(const std::string& word) {
   return fail(ErrorCode::usage, fmt::format("there is no technique '{}'; there are {}", word, names));
 }
 
-Result<Chosen> chooseTechnique(const std::string& name, Needs needs) {
+Result<Chosen> chooseTechnique(const std::string& name, Needs needs, const TechniqueOptions& options) {
   const Choice choice = name == "auto" ? chooseAutomatically(needs) : Choice{name, "as asked", ""};
-  const auto entries = allTechniques(needs.counter);
+  const auto entries = allTechniques(options);
   const auto* entry = find(entries, choice.name);
   if (entry == nullptr) return fail(ErrorCode::usage, fmt::format("there is no technique '{}'", choice.name));
   auto technique = entry->create();

@@ -7,6 +7,7 @@
 #include "judging.hpp"
 #include "outputs.hpp"
 #include "umbrage/png/png.hpp"
+#include "umbrage/shadow/unshadowed.hpp"
 
 namespace umbrage::cli {
 namespace {
@@ -23,6 +24,7 @@ struct CompareOptions {
 struct Comparison {
   std::string technique, against;  ///< names, "auto" resolved
   std::vector<Agreement> lights;
+  std::size_t unknown = 0;  ///< pixels on which one of them knows no shadows
 
   [[nodiscard]] bool agree() const {
     return std::all_of(lights.begin(), lights.end(), [](const auto& light) { return light.holds(); });
@@ -38,6 +40,9 @@ std::string comparisonText(const Comparison& comparison, const View& view) {
                         i, light.differing, view.camera.width * view.camera.height, light.astray, light.rms,
                         shortName(view.lights[i].name));
   }
+  if (comparison.unknown > 0)
+    text +=
+        fmt::format("not compared: {} pixels, on surfaces that have no shadows by one of them\n", comparison.unknown);
   return text + (comparison.agree() ? "they agree\n" : "they do not agree\n");
 }
 
@@ -45,7 +50,8 @@ std::string comparisonJson(const Comparison& comparison, const View& view) {
   Json json{{"technique", comparison.technique},
             {"against", comparison.against},
             {"size", {view.camera.width, view.camera.height}},
-            {"agree", comparison.agree()}};
+            {"agree", comparison.agree()},
+            {"not_compared", comparison.unknown}};
   json["lights"] = Json::array();
   for (const auto& light : comparison.lights)
     json["lights"].push_back({{"differing", light.differing},
@@ -75,7 +81,7 @@ Result<Outcome> run(const CompareOptions& options, const Console& console) {
   const auto geometry = shadow::makeGeometry(view->scene);
   const auto a = draw(options.technique, geometry, *view, console);
   if (!a) return tl::unexpected(a.error());
-  const auto b = draw(options.against.empty() ? truthFor(a->traits) : options.against, geometry, *view, console);
+  const auto b = draw(options.against.empty() ? truthFor(a->traits, *view) : options.against, geometry, *view, console);
   if (!b) return tl::unexpected(b.error());
   if (!geometry->filters.empty() && a->traits.tinted != b->traits.tinted)
     return fail(ErrorCode::usage,
@@ -84,7 +90,8 @@ Result<Outcome> run(const CompareOptions& options, const Console& console) {
   if (const auto written = writePicture(options.picture, *a, *b); !written) return tl::unexpected(written.error());
   auto lights = compareDrawings(*a, *b, *view, geometry);
   if (!lights) return tl::unexpected(lights.error());
-  const Comparison comparison{a->traits.name, b->traits.name, std::move(*lights)};
+  const Comparison comparison{a->traits.name, b->traits.name, std::move(*lights),
+                              std::max(unknownPixels(*a), unknownPixels(*b))};
   return Outcome{options.json ? comparisonJson(comparison, *view) : comparisonText(comparison, *view),
                  comparison.agree() ? 0 : 1};
 }
@@ -106,6 +113,7 @@ Run addCompare(CLI::App& app) {
   addLightOptions(app, options->view);
   addGroundOption(app, options->view);
   addSilhouetteOption(app, options->view);
+  addTechniqueOptions(app, options->view.techniques);
   addVeilOption(app, options->view);
   return [options](const Console& console) { return run(*options, console); };
 }

@@ -61,7 +61,7 @@ Result<Drawing> draw(const std::string& technique, const std::shared_ptr<const s
   Drawing drawing;
   Stopwatch watch;
   auto chosen = chooseTechnique(
-      technique, {!geometry->filters.empty(), std::ranges::any_of(view.lights, scene::isArea), view.counter});
+      technique, {!geometry->filters.empty(), std::ranges::any_of(view.lights, scene::isArea)}, view.techniques);
   if (!chosen) return tl::unexpected(chosen.error());
   drawing.traits = chosen->technique->traits();
   if (const auto known = checkLights(drawing.traits, view); !known && !options.areasAsCentres)

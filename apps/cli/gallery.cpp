@@ -67,6 +67,7 @@ std::vector<std::string> words(const shadow::Traits& traits) {
   std::vector<std::string> list{traits.needsGraphics ? "OpenGL" : "processor"};
   if (traits.soft) list.emplace_back("soft shadows");
   if (traits.tinted) list.emplace_back("coloured glass");
+  if (traits.approximate) list.emplace_back("approximate");
   if (traits.needsClosed) list.emplace_back("closed casters only");
   return list;
 }
@@ -115,17 +116,18 @@ class Hall {
     auto drawing = draw(name, geometry_, view_, console_, {static_cast<std::size_t>(options_.frames), true});
     if (!drawing) return tl::unexpected(drawing.error());
     auto made = std::make_shared<const Drawing>(std::move(*drawing));
-    if (name == truthFor(made->traits)) truths_.emplace(name, made);
+    if (name == truthFor(made->traits, view_)) truths_.emplace(name, made);
     return made;
   }
 
   Result<void> judge(const shadow::Traits& traits, const Drawing& drawing, Shown& shown) {
-    if (traits.name == truthFor(traits) || view_.lights.empty()) return {};
-    const auto truth = drawn(truthFor(traits));
+    if (traits.name == truthFor(traits, view_) || view_.lights.empty()) return {};
+    const auto truth = drawn(truthFor(traits, view_));
     if (!truth) return tl::unexpected(truth.error());
     const auto lights = compareDrawings(drawing, **truth, view_, geometry_);
     if (!lights) return tl::unexpected(lights.error());
     shown.entry.error = summed((*truth)->traits.name, *lights);
+    shown.entry.error->unknown = unknownPixels(drawing);
     shown.difference = differencePicture(drawing, **truth);
     shown.entry.difference = traits.name + "-difference.png";
     return {};
@@ -188,6 +190,7 @@ Json entryJson(const report::GalleryEntry& entry) {
                      {"differing", entry.error->differing},
                      {"far_from_edge", entry.error->astray},
                      {"covered", entry.error->covered},
+                     {"not_judged", entry.error->unknown},
                      {"rms", entry.error->rms}};
   json["prepare_ms"] = entry.prepareMs;
   json["frame_ms"] = entry.frameMs;
@@ -227,14 +230,14 @@ std::vector<FolderFile> files(const std::vector<Shown>& shown, const report::Gal
 }
 
 /// Those that were asked for, and the truths that they are judged by.
-std::vector<shadow::Traits> asked(const GalleryOptions& options) {
+std::vector<shadow::Traits> asked(const GalleryOptions& options, const View& view) {
   const auto entries = allTechniques();
   const auto wanted = [&](const std::string& name) {
     return options.techniques.empty() || std::ranges::find(options.techniques, name) != options.techniques.end();
   };
   std::set<std::string> names;
   for (const auto& entry : entries)
-    if (wanted(entry.traits.name)) names.insert({entry.traits.name, truthFor(entry.traits)});
+    if (wanted(entry.traits.name)) names.insert({entry.traits.name, truthFor(entry.traits, view)});
   std::vector<shadow::Traits> list;
   for (const auto& entry : entries)
     if (names.contains(entry.traits.name)) list.push_back(entry.traits);
@@ -262,12 +265,12 @@ std::string summary(const GalleryOptions& options, const std::vector<Shown>& sho
 
 Result<Outcome> run(const GalleryOptions& options, const Console& console) {
   if (const auto open = checkFolder(options.folder, kPage, kMark); !open) return tl::unexpected(open.error());
-  const auto techniques = asked(options);
-  if (const auto fits = checkMemory(options.view.size, techniques.size()); !fits) return tl::unexpected(fits.error());
   auto scene = loadScene(options.scene, console);
   if (!scene) return tl::unexpected(scene.error());
   const auto view = makeView(std::move(*scene), options.view);
   if (!view) return tl::unexpected(view.error());
+  const auto techniques = asked(options, *view);
+  if (const auto fits = checkMemory(options.view.size, techniques.size()); !fits) return tl::unexpected(fits.error());
   Hall hall(options, *view, console);
   std::vector<Shown> shown;
   for (const auto& traits : techniques) {
@@ -296,6 +299,7 @@ Run addGallery(CLI::App& app) {
   addLightOptions(app, options->view);
   addGroundOption(app, options->view);
   addSilhouetteOption(app, options->view);
+  addTechniqueOptions(app, options->view.techniques);
   addVeilOption(app, options->view);
   return [options](const Console& console) { return run(*options, console); };
 }

@@ -18,11 +18,15 @@ Graphics findGraphics() {
   return {(*context)->renderer(), (*context)->isSoftware(), ""};
 }
 
-std::vector<shadow::TechniqueEntry> graphicsTechniques(StencilCounter counter) {
-  render::VolumeOptions options;
-  if (counter == StencilCounter::wrap) options.overflow = render::Overflow::wraps;
-  if (counter == StencilCounter::saturate) options.overflow = render::Overflow::saturates;
-  return techniques::openGlTechniques(options);
+std::vector<shadow::TechniqueEntry> graphicsTechniques(const TechniqueOptions& options) {
+  render::VolumeOptions volumes;
+  if (options.counter == StencilCounter::wrap) volumes.overflow = render::Overflow::wraps;
+  if (options.counter == StencilCounter::saturate) volumes.overflow = render::Overflow::saturates;
+  render::ShadowMapOptions maps;
+  maps.texels = options.mapTexels;
+  maps.filter = options.mapFilter;
+  if (options.mapBias) maps.constantBias = options.mapBias->x, maps.slopeBias = options.mapBias->y;
+  return techniques::openGlTechniques(volumes, options.planes, maps);
 }
 
 Result<image::RgbImage> drawOver(const image::RgbImage& picture, const std::vector<std::string>& what,
@@ -36,7 +40,7 @@ Result<image::RgbImage> drawOver(const image::RgbImage& picture, const std::vect
 
 Graphics findGraphics() { return {"", false, "this build has no OpenGL"}; }
 
-std::vector<shadow::TechniqueEntry> graphicsTechniques(StencilCounter) { return {}; }
+std::vector<shadow::TechniqueEntry> graphicsTechniques(const TechniqueOptions&) { return {}; }
 
 Result<image::RgbImage> drawOver(const image::RgbImage&, const std::vector<std::string>&, const shadow::Geometry&,
                                  const shadow::Frame&) {

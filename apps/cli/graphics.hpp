@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "technique_options.hpp"
 #include "umbrage/shadow/technique.hpp"
 
 // What a build without OpenGL has not got; the only file that knows whether it has.
@@ -17,11 +18,8 @@ struct Graphics {
 };
 [[nodiscard]] Graphics findGraphics();
 
-/// What becomes of counts that 8 bits of stencil cannot hold.
-enum class StencilCounter { exact, wrap, saturate };
-
 /// The techniques that run on OpenGL.
-[[nodiscard]] std::vector<shadow::TechniqueEntry> graphicsTechniques(StencilCounter counter = StencilCounter::exact);
+[[nodiscard]] std::vector<shadow::TechniqueEntry> graphicsTechniques(const TechniqueOptions& options);
 
 /// `picture` with shadow volumes ("volumes") and their edges ("silhouette") drawn over it. Errors: device.
 [[nodiscard]] Result<image::RgbImage> drawOver(const image::RgbImage& picture, const std::vector<std::string>& what,

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "umbrage/shadow/unshadowed.hpp"
+
 namespace umbrage::cli {
 namespace {
 
-constexpr image::Rgb8 kWrong{220, 0, 0};
+constexpr image::Rgb8 kWrong{220, 0, 0}, kUnknown{150, 175, 215};
 constexpr double kFaintest = 0.25;  // of what differs at all, so that it is seen
 
 Result<shadow::EdgeFinder> edgeFinderFor(const std::shared_ptr<const shadow::Geometry>& geometry,
@@ -15,6 +17,14 @@ Result<shadow::EdgeFinder> edgeFinderFor(const std::shared_ptr<const shadow::Geo
   if (!truth) return tl::unexpected(truth.error());
   if (const auto prepared = truth->technique->prepare(geometry); !prepared) return tl::unexpected(prepared.error());
   return shadow::EdgeFinder(geometry, std::move(truth->technique));
+}
+
+/// Masks of which what is not known is taken from the other drawing.
+std::vector<shadow::LightMask> knownMasks(const Drawing& drawing, const Drawing& other) {
+  std::vector<shadow::LightMask> masks = drawing.shading.masks;
+  for (std::size_t i = 0; i < masks.size() && !drawing.shading.unshadowed.empty(); ++i)
+    masks[i] = shadow::whereKnown(std::move(masks[i]), drawing.shading.unshadowed, other.shading.masks[i]);
+  return masks;
 }
 
 std::uint8_t mixed(std::uint8_t a, std::uint8_t b, double part) {
@@ -28,26 +38,32 @@ void redden(image::Rgb8& pixel, int difference) {
 
 }  // namespace
 
-const char* truthFor(const shadow::Traits& traits) {
-  return traits.soft ? "soft_rays" : traits.tinted ? "transparent_rays" : "ray_traced";
+const char* truthFor(const shadow::Traits& traits, const View& view) {
+  const bool soft = traits.soft && (traits.tinted || std::ranges::any_of(view.lights, scene::isArea));
+  return soft ? "soft_rays" : traits.tinted ? "transparent_rays" : "ray_traced";
+}
+
+std::size_t unknownPixels(const Drawing& drawing) {
+  return static_cast<std::size_t>(std::ranges::count(drawing.shading.unshadowed.pixels(), std::uint8_t{1}));
 }
 
 Result<std::vector<Agreement>> compareDrawings(const Drawing& a, const Drawing& b, const View& view,
                                                const std::shared_ptr<const shadow::Geometry>& geometry) {
-  const auto edges = edgeFinderFor(geometry, truthFor(a.traits));
+  const std::string truth = truthFor(a.traits, view);
+  const auto edges = edgeFinderFor(geometry, truth);
   if (!edges) return tl::unexpected(edges.error());
-  const bool swapped = a.traits.name == truthFor(a.traits);
+  const bool swapped = a.traits.name == truth;
   const int tolerance = std::max(a.traits.edgeTolerancePx, b.traits.edgeTolerancePx);
-  return compareMasks((swapped ? b : a).shading.masks, (swapped ? a : b).shading.masks, {view.camera, view.lights},
-                      tolerance, *edges);
+  const auto ofA = knownMasks(a, b), ofB = knownMasks(b, a);
+  return compareMasks(swapped ? ofB : ofA, swapped ? ofA : ofB, {view.camera, view.lights}, tolerance, *edges);
 }
 
 image::RgbImage differencePicture(const Drawing& a, const Drawing& b) {
   const auto& seen = b.shading.surface.triangle;
   image::RgbImage picture(seen.width(), seen.height(), image::Rgb8{255, 255, 255});
+  const auto ofA = knownMasks(a, b), ofB = knownMasks(b, a);
   for (std::size_t light = 0; light < b.shading.masks.size(); ++light) {
-    const auto mine = shadow::fileImage(a.shading.masks[light]);
-    const auto theirs = shadow::fileImage(b.shading.masks[light]);
+    const auto mine = shadow::fileImage(ofA[light]), theirs = shadow::fileImage(ofB[light]);
     for (std::size_t i = 0; i < picture.size(); ++i) {
       auto& pixel = picture.pixels()[i];
       const int difference = std::abs(mine.pixels()[i] - theirs.pixels()[i]);
@@ -55,6 +71,9 @@ image::RgbImage differencePicture(const Drawing& a, const Drawing& b) {
       if (difference != 0) redden(pixel, difference);
     }
   }
+  for (const auto* drawing : {&a, &b})
+    for (std::size_t i = 0; i < drawing->shading.unshadowed.size(); ++i)
+      if (drawing->shading.unshadowed.pixels()[i] != 0) picture.pixels()[i] = kUnknown;
   return picture;
 }
 

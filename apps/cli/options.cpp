@@ -31,13 +31,6 @@ Result<shadow::Extrusion> parseExtrusion(const std::string& word) {
   return fail(ErrorCode::usage, "must be one of cpu, vertex, geometry");
 }
 
-Result<StencilCounter> parseCounter(const std::string& word) {
-  if (word == "exact") return StencilCounter::exact;
-  if (word == "wrap") return StencilCounter::wrap;
-  if (word == "saturate") return StencilCounter::saturate;
-  return fail(ErrorCode::usage, "must be one of exact, wrap, saturate");
-}
-
 // parseNumber, parseDegrees with their limits.
 auto numberIn(double low, double high) {
   return [low, high](const std::string& word) { return parseNumber(word, low, high); };
@@ -152,10 +145,6 @@ void addSilhouetteOption(CLI::App& app, ViewOptions& options) {
            "Who carries shadow volumes away from the light: the processor, a vertex or a geometry shader; changes "
            "times, no pixel (default vertex)",
            options.extrusion, parseExtrusion, kPicture);
-  addValue(app, "--stencil-counter", "exact|wrap|saturate",
-           "What counts do that 8 bits of stencil cannot hold; wrap and saturate give wrong shadows, to show what the "
-           "first engines had to live with (default exact)",
-           options.counter, parseCounter, kPicture);
 }
 
 void addVeilOption(CLI::App& app, ViewOptions& options) {

@@ -7,6 +7,7 @@
 #include "declare.hpp"
 #include "graphics.hpp"
 #include "parse.hpp"
+#include "technique_options.hpp"
 #include "umbrage/base/angle.hpp"
 #include "umbrage/scene/scene.hpp"
 #include "umbrage/shadow/finders/finder.hpp"
@@ -55,12 +56,12 @@ struct ViewOptions {
   shadow::FinderKind silhouettes = shadow::FinderKind::automatic;
   shadow::VolumeFill fill = shadow::VolumeFill::reduced;
   shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
-  StencilCounter counter = StencilCounter::exact;
   std::optional<int> veilLayers;
   std::optional<double> seeThrough;
   std::optional<Angle> smooth;  ///< the crease angle of smooth shading
   bool hideTerminator = false;
   shadow::SoftSampling soft;
+  TechniqueOptions techniques;
 };
 void addCameraOptions(CLI::App& app, ViewOptions& options);
 /// --ambient, for pictures whose light is that of lights alone.
@@ -81,9 +82,9 @@ struct View {
   shadow::FinderKind silhouettes = shadow::FinderKind::automatic;
   shadow::VolumeFill fill = shadow::VolumeFill::reduced;
   shadow::Extrusion extrusion = shadow::Extrusion::vertexShader;
-  StencilCounter counter = StencilCounter::exact;
   std::optional<int> veilLayers = {};
   shadow::SoftSampling soft = {};
+  TechniqueOptions techniques = {};
   bool detailed = false;  ///< statistics that take time of their own are wanted
   std::string cameraReason;
   std::string lightReason;

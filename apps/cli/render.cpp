@@ -179,6 +179,7 @@ Run addRender(CLI::App& app) {
   addLightOptions(app, options->view);
   addGroundOption(app, options->view);
   addSilhouetteOption(app, options->view);
+  addTechniqueOptions(app, options->view.techniques);
   addVeilOption(app, options->view);
   addValue(app, "--smooth", "CREASE_DEG",
            "Smooth shading across edges of at most so many degrees, for example 30 (default: flat)",

@@ -10,9 +10,8 @@
 namespace umbrage::cli {
 namespace {
 
-std::size_t litPixels(const shadow::LightMask& mask) {
-  return static_cast<std::size_t>(
-      std::count(mask.light.pixels().begin(), mask.light.pixels().end(), std::uint8_t{255}));
+std::size_t count(const image::GreyImage& image, std::uint8_t value) {
+  return static_cast<std::size_t>(std::count(image.pixels().begin(), image.pixels().end(), value));
 }
 
 std::size_t coveredPixels(const shadow::SurfaceBuffer& seen) {
@@ -89,8 +88,11 @@ Json lightJson(const scene::Light& light, const shadow::LightStats& stats, const
             {"casters_behind", stats.castersBehind},
             {"sides_behind", stats.sidesBehind}}},
           {"endless_casters", stats.endlessCasters},
+          {"planes", stats.planes},
+          {"shadow_maps", stats.shadowMaps},
+          {"shadow_map_texels", stats.mapTexels},
           {"soft", softJson(stats.soft)},
-          {"lit_pixels", litPixels(mask)}};
+          {"lit_pixels", count(mask.light, 255)}};
 }
 
 Json phasesJson(const std::vector<shadow::PhaseTime>& phases) {
@@ -118,6 +120,7 @@ std::string statsJson(const Stats& stats) {
             {"gl_renderer", renderer.empty() ? Json(nullptr) : Json(renderer)},
             {"size", {camera.width, camera.height}},
             {"covered_pixels", coveredPixels(shading.surface)},
+            {"unshadowed_pixels", count(shading.unshadowed, 1)},
             {"triangles", stats.geometry.surfaces.triangles.size()},
             {"degenerate_triangles", stats.geometry.surfaces.dropped},
             {"casters", castersJson(stats.geometry.casters)}};
@@ -146,6 +149,11 @@ std::string statsText(const Stats& stats) {
     if (!light.finder.empty())
       text += fmt::format("silhouette {} of {} tested edges ({})\n", light.silhouetteEdges, light.edgesTested,
                           light.finder);
+  if (const auto& unknown = stats.drawing.shading.unshadowed; !unknown.empty())
+    text += fmt::format("no shadows {} pixels show surfaces on which {} knows none\n", count(unknown, 1),
+                        stats.drawing.traits.name);
+  for (const auto& light : stats.drawing.shading.stats.lights)
+    if (light.shadowMaps > 0) text += fmt::format("maps       {}\n", light.reason);
   for (const auto& light : stats.drawing.shading.stats.lights)
     if (light.volumeFragments)
       text += fmt::format("volumes    {} triangles, {} pixels filled\n", light.volumeTriangles, *light.volumeFragments);

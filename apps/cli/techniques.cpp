@@ -33,16 +33,18 @@ Json rowsJson(const std::vector<Row>& rows) {
                     {"needs_closed", traits.needsClosed},
                     {"needs_graphics", traits.needsGraphics},
                     {"edge_tolerance_px", traits.edgeTolerancePx},
+                    {"approximate", traits.approximate},
                     {"available", obstacle.empty()},
                     {"reason", obstacle.empty() ? Json(nullptr) : Json(obstacle)}});
   return list;
 }
 
 std::string traitsText(const shadow::Traits& traits) {
-  return fmt::format("{}; {}; {}; {}; edges within {} px", traits.needsGraphics ? "OpenGL" : "CPU",
+  return fmt::format("{}; {}; {}; {}; {}", traits.needsGraphics ? "OpenGL" : "CPU",
                      traits.soft ? "soft and hard shadows" : "hard shadows",
                      traits.tinted ? "tinted glass" : "no tinted glass",
-                     traits.needsClosed ? "closed casters only" : "any caster", traits.edgeTolerancePx);
+                     traits.needsClosed ? "closed casters only" : "any caster",
+                     traits.approximate ? "approximate" : fmt::format("edges within {} px", traits.edgeTolerancePx));
 }
 
 std::string rowsText(const std::vector<Row>& rows) {

@@ -85,9 +85,9 @@ Result<View> makeView(scene::Scene scene, const ViewOptions& options) {
   view.silhouettes = options.silhouettes;
   view.fill = options.fill;
   view.extrusion = options.extrusion;
-  view.counter = options.counter;
   view.veilLayers = options.veilLayers;
   view.soft = options.soft;
+  view.techniques = options.techniques;
   if (options.seeThrough) scene = scene::seeThrough(std::move(scene), *options.seeThrough);
   // Framed before the ground is added: the ground is 64 times as large as the scene.
   const auto camera = makeCamera(scene, options);

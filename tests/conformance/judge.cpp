@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "support/asking.hpp"
+#include "umbrage/shadow/unshadowed.hpp"
 #include "umbrage/techniques/cpu/registry.hpp"
 #ifdef UMBRAGE_HAVE_TECHNIQUES_GL
 #include "umbrage/techniques/gl/registry.hpp"
@@ -64,20 +65,6 @@ shadow::TechniqueEntry truthFor(const shadow::TechniqueEntry& entry, const shado
   UMBRAGE_CHECK(false, "the truth is missing");
 }
 
-namespace {
-
-// What is not known is taken from the truth, so that it differs nowhere.
-shadow::LightMask judged(shadow::LightMask mask, const shadow::LightMask& truth, const image::GreyImage& unshadowed) {
-  for (std::size_t i = 0; i < unshadowed.size(); ++i) {
-    if (unshadowed.pixels()[i] == 0) continue;
-    mask.light.pixels()[i] = truth.light.pixels()[i];
-    mask.covered.pixels()[i] = truth.covered.pixels()[i];
-  }
-  return mask;
-}
-
-}  // namespace
-
 Result<Judge> Judge::make(const shadow::TechniqueEntry& entry, std::shared_ptr<const shadow::Geometry> geometry) {
   Judge judge;
   judge.name_ = entry.traits.name;
@@ -105,9 +92,10 @@ Result<std::vector<Verdict>> Judge::judge(const NamedView& view, const std::vect
   std::vector<Verdict> verdicts;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const auto edges = shadow::edgePixels(truth->masks[i]);
-    const shadow::LightMask mask = judged(shading->masks[i], truth->masks[i], shading->unshadowed);
+    const shadow::LightMask mask = shadow::whereKnown(shading->masks[i], shading->unshadowed, truth->masks[i]);
     Verdict v{name_, "", view.name, named[i].name, shadow::compare(mask, truth->masks[i], edges, tolerance_)};
-    if (!shading->unshadowed.empty()) v.difference.covered -= std::size_t(std::ranges::count(shading->unshadowed.pixels(), 1));
+    if (!shading->unshadowed.empty())
+      v.difference.covered -= std::size_t(std::ranges::count(shading->unshadowed.pixels(), 1));
     for (const auto& [x, y] : farPixels(mask, truth->masks[i], edges, tolerance_)) {
       if (v.difference.farFromEdge > kMostLookedAt) break;
       const auto edge = edges_->edgeNear(view.camera, lights[i], x, y);

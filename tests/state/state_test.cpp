@@ -8,7 +8,10 @@
 #include "umbrage/gl/context.hpp"
 #include "umbrage/gl/debug_log.hpp"
 #include "umbrage/render/stencil_shadows.hpp"
+#include "umbrage/techniques/gl/planar.hpp"
 #include "umbrage/techniques/gl/registry.hpp"
+#include "umbrage/techniques/gl/shadow_map.hpp"
+#include "umbrage/techniques/gl/shadow_map_perspective.hpp"
 #include "umbrage/techniques/gl/zfail.hpp"
 #include "umbrage/techniques/gl/zpass.hpp"
 
@@ -34,6 +37,16 @@ scene::Camera camera() {
 
 const scene::Light kSun{scene::DirectionalLight{{-0.4, 0.5, -0.8}}};
 const scene::Light kSpot{scene::SpotLight{{3, -4, 6}, {-0.4, 0.6, -0.8}, Angle::degrees(20)}};
+
+std::vector<std::unique_ptr<render::GlTechnique>> hostTechniques() {
+  std::vector<std::unique_ptr<render::GlTechnique>> all;
+  all.push_back(techniques::makeZFail(nullptr));
+  all.push_back(techniques::makeZPass(nullptr));
+  all.push_back(techniques::makePlanar(nullptr));
+  all.push_back(techniques::makeShadowMap(nullptr, {.texels = 128}));
+  all.push_back(techniques::makePerspectiveShadowMap(nullptr, {.texels = 128}));
+  return all;
+}
 
 class HostState : public ::testing::TestWithParam<bool> {
  protected:
@@ -80,8 +93,7 @@ TEST_P(HostState, SnapshotSeesChanges) {
 TEST_P(HostState, ComesBackFromEveryTechniqueInTheHostsContext) {
   const auto geometry = shadow::makeGeometry(boxes());
   const std::array lights{kSun, kSpot};
-  for (const auto make : {techniques::makeZFail, techniques::makeZPass}) {
-    const auto technique = make(nullptr, {});
+  for (auto& technique : hostTechniques()) {
     ASSERT_TRUE(technique->prepare(geometry));
     const auto expected = technique->shade({camera(), lights});
     ASSERT_TRUE(expected);
@@ -100,13 +112,17 @@ TEST_P(HostState, ComesBackFromEveryTechniqueInTheHostsContext) {
 
 TEST_P(HostState, ComesBackFromDrawingAPicture) {
   const auto scene = boxes();
-  const auto technique = techniques::makeZPass(nullptr);
-  ASSERT_TRUE(technique->prepare(shadow::makeGeometry(scene)));
-  auto frame = render::GpuFrame::make(camera().width, camera().height);
-  ASSERT_TRUE(frame);
-  demandBack([&] {
-    EXPECT_TRUE(technique->draw(*frame, {camera(), std::span(&kSpot, 1)}, {.materials = scene.materials}));
-  });
+  const scene::Light disc{scene::DiscLight{{3, -4, 6}, {-0.4, 0.6, -0.8}, 0.5}};
+  for (auto& technique : hostTechniques()) {
+    ASSERT_TRUE(technique->prepare(shadow::makeGeometry(scene)));
+    auto frame = render::GpuFrame::make(camera().width, camera().height);
+    ASSERT_TRUE(frame);
+    const std::array lights{kSpot, technique->traits().soft ? disc : kSun};
+    demandBack([&] {
+      EXPECT_TRUE(technique->draw(*frame, {.camera = camera(), .lights = lights, .soft = {.samples = 2}},
+                                  {.materials = scene.materials}));
+    });
+  }
 }
 
 TEST_P(HostState, ComesBackFromRegisteredTechniquesInTheirOwnContext) {

@@ -100,6 +100,7 @@ Quirks findQuirks() {
   for (const char* name : {"llvmpipe", "softpipe", "swrast", "SWR"})
     quirks.software = quirks.software || renderer.find(name) != std::string::npos;
   quirks.timerQueriesMeasureSubmissionOnly = quirks.software;
+  quirks.readsStorageLate = quirks.software;
   quirks.depthBounds = epoxy_has_gl_extension("GL_EXT_depth_bounds_test");
   GLint64 bytes = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);

@@ -7,7 +7,7 @@
 namespace umbrage::gl {
 
 /// How many binding points of each kind the house uses, from 0; HostScope saves these and no more.
-inline constexpr int kUniformSlots = 2;
+inline constexpr int kUniformSlots = 3;
 inline constexpr int kStorageSlots = 8;
 inline constexpr int kTextureSlots = 9;
 

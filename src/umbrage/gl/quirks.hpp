@@ -12,6 +12,9 @@ struct Quirks {
   /// llvmpipe's timer queries measure submission, not rasterisation (4.7 ms reported, 125 ms passed). Nothing here uses them:
   /// phases are timed by the wall clock between two finishes, which is right on every driver.
   bool timerQueriesMeasureSubmissionOnly = false;
+  /// llvmpipe reads shader storage when it rasterises, not when it draws (22.3.6): contents that are replaced (Buffer::set) before are lost to draws that wait,
+  /// which then see the new ones. Uniform buffers are safe. Whoever replaces storage between draws of one frame finishes first.
+  bool readsStorageLate = false;
   /// Both faces of a triangle can be counted into the stencil in one pass. Every driver of OpenGL 4.5 says so; where it is not true, volumes are drawn
   /// twice with one face culled, which tests force (ContextOptions::adjust).
   bool twoSidedStencil = true;

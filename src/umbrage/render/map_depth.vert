@@ -10,7 +10,7 @@ layout(std140, binding = 0) uniform View {
 layout(std430, binding = 0) readonly buffer Positions { float position[]; };
 
 vec3 positionOf(uint i) { return vec3(position[3u * i], position[3u * i + 1u], position[3u * i + 2u]); }
-layout(std430, binding = 5) readonly buffer Map {
+layout(std140, binding = 2) uniform Map {
   mat4 toMap;       // from (position - eye, 1) to the map's clip coordinates; greater depth is nearer to the light
   mat4 planeToMap;  // the same for planes
   vec4 drawn;       // the half-space outside of which casters are cut off

@@ -41,7 +41,9 @@ struct Range {
   double low = kEndless, high = -kEndless;
   void add(double v) { low = std::min(low, v), high = std::max(high, v); }
   [[nodiscard]] bool empty() const { return !(low <= high); }
-  [[nodiscard]] Range within(const Range& other) const { return {std::max(low, other.low), std::min(high, other.high)}; }
+  [[nodiscard]] Range within(const Range& other) const {
+    return {std::max(low, other.low), std::min(high, other.high)};
+  }
 };
 
 /// What a set of points takes up of a look.
@@ -70,11 +72,13 @@ class Cutter {
     beyond_.assign(surfaces.positions.size(), 0);
     for (std::size_t i = 0; i < beyond_.size(); ++i)
       for (std::size_t b = 0; b < borders.size(); ++b)
-        beyond_[i] |= static_cast<std::uint16_t>((value(borders[b], Vec3(surfaces.positions[i]) - eye_) < 0.0 ? 1u : 0u) << b);
+        beyond_[i] |=
+            static_cast<std::uint16_t>((value(borders[b], Vec3(surfaces.positions[i]) - eye_) < 0.0 ? 1u : 0u) << b);
     for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t) {
       const mesh::Triangle& c = surfaces.triangles[t];
       if (surfaces.casts[t] == 0 || (beyond_[c[0]] & beyond_[c[1]] & beyond_[c[2]]) != 0) continue;
-      const std::array<Vec3, 3> corners{surfaces.corner(t, 0) - eye_, surfaces.corner(t, 1) - eye_, surfaces.corner(t, 2) - eye_};
+      const std::array<Vec3, 3> corners{surfaces.corner(t, 0) - eye_, surfaces.corner(t, 1) - eye_,
+                                        surfaces.corner(t, 2) - eye_};
       if ((beyond_[c[0]] | beyond_[c[1]] | beyond_[c[2]]) != 0)
         cut(corners, borders, take);
       else
@@ -241,15 +245,23 @@ struct Across {
 Look parallelLook(const Space& space, const Vec3& towards, const Vec3& right) {
   const Across across(towards, right);
   const Vec4 w = space.row({0, 0, 0, 1});
-  return {space.row(Vec4(across.x, 0)), space.row(Vec4(across.y, 0)), w, space.row(Vec4(towards, 0)), kEndless, 0.0, space.drawn};
+  return {space.row(Vec4(across.x, 0)),
+          space.row(Vec4(across.y, 0)),
+          w,
+          space.row(Vec4(towards, 0)),
+          kEndless,
+          0.0,
+          space.drawn};
 }
 
 // From a point `centre` along `axis`; `inverted`: what is farther from it is nearer to the light.
-Look centralLook(const Space& space, const Vec3& centre, const Vec3& axis, const Vec3& right, double limit, bool inverted) {
+Look centralLook(const Space& space, const Vec3& centre, const Vec3& axis, const Vec3& right, double limit,
+                 bool inverted) {
   const Across across(axis, right);
   const auto along = [&](const Vec3& d) { return space.row(Vec4(d, -glm::dot(d, centre))); };
   const Vec4 depth = space.row({0, 0, 0, 1});
-  return {along(across.x), along(across.y), along(axis), inverted ? -depth : depth, limit, kNearest * space.size, space.drawn};
+  return {along(across.x), along(across.y),       along(axis), inverted ? -depth : depth,
+          limit,           kNearest * space.size, space.drawn};
 }
 
 std::vector<Look> cubeLooks(const Space& space, const Vec3& centre, bool inverted) {
@@ -323,7 +335,8 @@ Space perspectiveSpace(const Held& held, double back) {
   double wide = 0.0, high = 0.0;
   for (const Vec3& p : held.points) {
     const double w = glm::dot(axes.forward, p) + back;
-    wide = std::max(wide, std::abs(glm::dot(axes.right, p)) / w), high = std::max(high, std::abs(glm::dot(axes.up, p)) / w);
+    wide = std::max(wide, std::abs(glm::dot(axes.right, p)) / w),
+    high = std::max(high, std::abs(glm::dot(axes.up, p)) / w);
   }
   const double a = (far + near) / (far - near), b = -2.0 * far * near / (far - near);
   const Vec4 x(axes.right / std::max(wide, 1e-30), 0.0), y(axes.up / std::max(high, 1e-30), 0.0), w(axes.forward, back);

@@ -7,12 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/matrix.hpp>
 #include <optional>
 
 #include "umbrage/base/check.hpp"
 #include "umbrage/gl/quirks.hpp"
-
-#include <glm/matrix.hpp>
+#include "umbrage/math/predicates.hpp"
 
 namespace umbrage::render {
 namespace {
@@ -37,12 +37,11 @@ class MapPainter final : public MaskPainter {
       : name_(std::move(name)), fit_(fit), options_(options), limits_(gl::findQuirks()) {}
 
   Result<void> prepare(std::shared_ptr<const shadow::Geometry> geometry) override {
-    std::vector<mesh::Triangle> casters;
-    const scene::Surfaces& surfaces = geometry->surfaces;
-    for (std::size_t t = 0; t < surfaces.triangles.size(); ++t)
-      if (surfaces.casts[t] != 0) casters.push_back(surfaces.triangles[t]);
-    indexCount_ = 3 * casters.size();
-    return indices_.setAll(casters);
+    casters_.clear();
+    for (std::uint32_t t = 0; t < geometry->surfaces.triangles.size(); ++t)
+      if (geometry->surfaces.casts[t] != 0) casters_.push_back(t);
+    drawn_.reset();
+    return {};
   }
 
   Result<void> begin(const SeenFrame& frame) override {
@@ -60,6 +59,7 @@ class MapPainter final : public MaskPainter {
                              .light = light.light,
                              .facing = light.facing});
     if (light.area.empty()) return {};
+    if (auto done = chooseCasters(frame.geometry.surfaces, light.light); !done) return done;
     for (const MapView& map : fit.maps) {
       const int texels = texelsFor(map);
       for (const auto& done : {makeRoom(texels), upload(map, texels)})
@@ -74,10 +74,23 @@ class MapPainter final : public MaskPainter {
   }
 
  private:
+  // A triangle in whose plane the light lies casts no shadow; rounding would give it one, even a large one where the light is one of its corners.
+  Result<void> chooseCasters(const scene::Surfaces& surfaces, const scene::Light& light) {
+    const Vec4 lamp = scene::homogeneous(light, surfaces.origin);
+    std::vector<mesh::Triangle> some;
+    for (const std::uint32_t t : casters_)
+      if (lightSide(surfaces.corner(t, 0), surfaces.corner(t, 1), surfaces.corner(t, 2), lamp) != 0)
+        some.push_back(surfaces.triangles[t]);
+    if (drawn_ == casters_.size() && some.size() == casters_.size()) return {};
+    drawn_ = some.size();
+    return indices_.setAll(some);
+  }
+
   [[nodiscard]] std::string reason(const MapFit& fit, const shadow::LightStats& stats) const {
     if (fit.maps.empty()) return "no map: nothing that is seen can lie in shadow";
     std::string text = std::to_string(stats.shadowMaps) + (stats.shadowMaps == 1 ? " map" : " maps");
-    if (fit.movedBack) text += " in the perspective of an eye " + std::to_string(*fit.movedBack) + " behind the true one";
+    if (fit.movedBack)
+      text += " in the perspective of an eye " + std::to_string(*fit.movedBack) + " behind the true one";
     text += options_.texels == 0 ? ", as fine as the picture" : ", of the size asked for";
     return text + ", " + std::to_string(stats.mapTexels) + " texels in all";
   }
@@ -133,8 +146,8 @@ class MapPainter final : public MaskPainter {
     pass.use(*depthProgram_);
     pass.uniforms(0, frame.input.lights[light.slot].view);
     pass.storage(0, frame.input.positions);
-    pass.storage(5, block_);
-    pass.drawIndexed(vertices_, 0, indexCount_);
+    pass.uniforms(2, block_);
+    pass.drawIndexed(vertices_, 0, 3 * *drawn_);
   }
 
   // Takes from the light's mask what the map says.
@@ -153,7 +166,7 @@ class MapPainter final : public MaskPainter {
     pass.storage(1, frame.input.scene->triangles());
     pass.storage(2, frame.input.scene->corners());
     pass.storage(3, gpu.facing);
-    pass.storage(5, block_);
+    pass.uniforms(2, block_);
     pass.texture(0, frame.input.frame->ids());
     pass.texture(1, map_);
     pass.draw(vertices_, 3);
@@ -166,7 +179,8 @@ class MapPainter final : public MaskPainter {
   SeenReceivers receivers_;
   gl::Buffer indices_, block_;
   gl::VertexArray vertices_{indices_};
-  std::size_t indexCount_ = 0;
+  std::vector<std::uint32_t> casters_;  ///< triangles of the surfaces
+  std::optional<std::size_t> drawn_;    ///< so many of them are in `indices_`
   gl::Texture map_;
   gl::Framebuffer target_;
   std::optional<gl::Program> depthProgram_, shadowProgram_;

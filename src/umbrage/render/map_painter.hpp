@@ -13,6 +13,7 @@ using MapFitter = MapFit (*)(const MapRequest&);
 /// `name`: for LightStats::method. REQUIRES: 0 <= options.texels, 0 <= options.filter <= kLargestFilter.
 /// Source: L. Williams, casting curved shadows on curved surfaces, 1978; filtering and bias: W. Reeves, D. Salesin and R. Cook, rendering antialiased
 /// shadows with depth maps, 1987.
-[[nodiscard]] std::unique_ptr<MaskPainter> makeMapPainter(std::string name, MapFitter fit, const ShadowMapOptions& options);
+[[nodiscard]] std::unique_ptr<MaskPainter> makeMapPainter(std::string name, MapFitter fit,
+                                                          const ShadowMapOptions& options);
 
 }  // namespace umbrage::render

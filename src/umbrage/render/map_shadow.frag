@@ -37,7 +37,7 @@ vec3 seenPoint(uint id, vec3 ray) {
   return slope != 0.0 ? ray * (dot(triangle[id].xyz, a) / slope) : a;
 }
 
-layout(std430, binding = 5) readonly buffer Map {
+layout(std140, binding = 2) uniform Map {
   mat4 toMap;       // from (position - eye, 1) to the map's clip coordinates; greater depth is nearer to the light
   mat4 planeToMap;  // the same for planes
   vec4 drawn;       // the half-space outside of which casters are cut off

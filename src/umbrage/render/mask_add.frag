@@ -33,7 +33,7 @@ vec3 seenPoint(uint id, vec3 ray) {
   return slope != 0.0 ? ray * (dot(triangle[id].xyz, a) / slope) : a;
 }
 
-layout(std430, binding = 3) readonly buffer Sample {
+layout(std140, binding = 2) uniform Sample {
   vec4 ball;       // centre relative to the eye, and radius; 0: all points count alike
   vec4 point;      // on it, relative to the eye; w: which half
 };

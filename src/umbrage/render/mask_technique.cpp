@@ -47,6 +47,7 @@ class MaskTechnique final : public GlTechnique {
     auto scene = GpuScene::make(geometry->surfaces);
     if (!scene) return tl::unexpected(scene.error());
     if (own_ == nullptr) own_ = std::make_unique<Own>(makePainter_());
+    own_->quirks = context_ != nullptr ? context_->quirks() : gl::findQuirks();
     own_->scene.emplace(std::move(*scene));
     if (auto done = own_->painter->prepare(geometry); !done) return done;
     geometry_ = std::move(geometry);
@@ -97,6 +98,7 @@ class MaskTechnique final : public GlTechnique {
     std::unique_ptr<MaskPainter> painter;
     std::optional<GpuScene> scene;
     std::optional<GpuFrame> frame;
+    gl::Quirks quirks;
     Programs programs;
     FrameData data;
     std::vector<GpuLight> lights;  ///< one more than the frame has: of the points of lights with an extent
@@ -142,7 +144,8 @@ class MaskTechnique final : public GlTechnique {
       gl::finish();
       ended("shadows");
     }
-    if (options != nullptr) run(scope, planMaskedPicture(placement, static_cast<int>(frame.lights.size())), input, ended);
+    if (options != nullptr)
+      run(scope, planMaskedPicture(placement, static_cast<int>(frame.lights.size())), input, ended);
     return {};
   }
 
@@ -204,6 +207,7 @@ class MaskTechnique final : public GlTechnique {
   Result<void> addSample(const Work& work, const shadow::LightSample& sample, std::size_t number,
                          shadow::LightStats& stats) {
     const std::size_t slot = own_->lights.size() - 1;
+    if (own_->quirks.readsStorageLate) gl::finish();  // the slot's data are those of the sample before
     shadow::LightStats ofSample;
     if (auto done = paint(work, sample.light, slot, ofSample); !done) return done;
     if (number == 0) stats = std::move(ofSample);
@@ -219,7 +223,7 @@ class MaskTechnique final : public GlTechnique {
     pass.storage(0, own_->scene->positions());
     pass.storage(1, own_->scene->triangles());
     pass.storage(2, own_->scene->corners());
-    pass.storage(3, own_->sample);
+    pass.uniforms(2, own_->sample);
     pass.texture(0, work.target.ids());
     pass.texture(1, work.target.mask(slot));
     pass.draw(own_->scene->vertices(), 3);

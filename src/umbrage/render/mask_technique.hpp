@@ -23,9 +23,9 @@ struct SeenFrame {
 /// A light without extent whose mask is wanted.
 struct MaskLight {
   const scene::Light& light;
-  std::size_t slot;                    ///< of `input.lights`, which has its data, and of the frame's masks
+  std::size_t slot;                      ///< of `input.lights`, which has its data, and of the frame's masks
   std::span<const std::uint8_t> facing;  ///< shadow::visibleSideFacesLight
-  gl::Rect area;                       ///< pixels that it can reach
+  gl::Rect area;                         ///< pixels that it can reach
 };
 
 /// A way to find shadows that gives the mask of one light at a time. It is made in the context that is current in every call, and when it dies.
@@ -37,7 +37,8 @@ class MaskPainter {
   /// Once a frame, before its lights.
   [[nodiscard]] virtual Result<void> begin(const SeenFrame& frame) = 0;
   /// Draws the light's mask into the target of its slot: all of it.
-  [[nodiscard]] virtual Result<void> paint(const SeenFrame& frame, const MaskLight& light, shadow::LightStats& stats) = 0;
+  [[nodiscard]] virtual Result<void> paint(const SeenFrame& frame, const MaskLight& light,
+                                           shadow::LightStats& stats) = 0;
   /// Per triangle of the surfaces: 1 where no shadow is known (Shading::unshadowed); empty: on none.
   [[nodiscard]] virtual std::span<const std::uint8_t> unshadowed() const { return {}; }
 };

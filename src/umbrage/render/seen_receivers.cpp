@@ -34,9 +34,14 @@ class Grid {
       left = std::min(left, clip.x / clip.w), right = std::max(right, clip.x / clip.w);
       top = std::min(top, -clip.y / clip.w), bottom = std::max(bottom, -clip.y / clip.w);
     }
-    const auto first = [](double ndc, int cells) { return std::clamp(int(std::ceil((0.5 + 0.5 * ndc) * cells - 0.5 - 1e-9)), 0, cells); };
-    const auto last = [](double ndc, int cells) { return std::clamp(int(std::floor((0.5 + 0.5 * ndc) * cells - 0.5 + 1e-9)), -1, cells - 1); };
-    addAt(first(left, kColumns), last(right, kColumns), first(top, kRows), last(bottom, kRows), triangle, a, normal, polygon);
+    const auto first = [](double ndc, int cells) {
+      return std::clamp(int(std::ceil((0.5 + 0.5 * ndc) * cells - 0.5 - 1e-9)), 0, cells);
+    };
+    const auto last = [](double ndc, int cells) {
+      return std::clamp(int(std::floor((0.5 + 0.5 * ndc) * cells - 0.5 + 1e-9)), -1, cells - 1);
+    };
+    addAt(first(left, kColumns), last(right, kColumns), first(top, kRows), last(bottom, kRows), triangle, a, normal,
+          polygon);
   }
 
   [[nodiscard]] std::vector<ViewSample> samples() const {
@@ -78,7 +83,7 @@ class Grid {
   const View& view_;
   scene::PixelRays rays_;
   double width_, height_;
-  std::array<double, kColumns * kRows> distance_ = filled();
+  std::array<double, kColumns* kRows> distance_ = filled();
   std::array<std::uint32_t, kColumns * kRows> triangle_{};
   static std::array<double, kColumns * kRows> filled() {
     std::array<double, kColumns * kRows> all{};

@@ -34,6 +34,7 @@ struct SeenReceivers {
   }
 };
 /// REQUIRES: view is viewOf(camera, ..).
-[[nodiscard]] SeenReceivers seenReceivers(const scene::Surfaces& surfaces, const View& view, const scene::Camera& camera);
+[[nodiscard]] SeenReceivers seenReceivers(const scene::Surfaces& surfaces, const View& view,
+                                          const scene::Camera& camera);
 
 }  // namespace umbrage::render

@@ -15,7 +15,8 @@ struct ShadowMapOptions {
   /// Likewise, in how much the surface's own depth changes from one texel to the next. The depth is compared with that of the surface's plane in the middle of
   /// each texel, so that a flat surface needs almost none.
   double slopeBias = 0.05;
-  std::uint64_t mostBytes = std::uint64_t{256} << 20;  ///< of graphics memory for the map, when the number of texels is chosen
+  std::uint64_t mostBytes = std::uint64_t{256}
+                            << 20;  ///< of graphics memory for the map, when the number of texels is chosen
 };
 inline constexpr int kLargestFilter = 16;
 

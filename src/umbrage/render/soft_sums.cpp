@@ -25,7 +25,8 @@ shadow::SoftStats softStats(const image::Image<Vec4f>& sums, const image::Image<
     const double apart = (sum.x / sum.y - sum.z / sum.w) / 2.0;
     squares += apart * apart;
   }
-  stats.error = both ? std::sqrt(squares / double(std::max<std::size_t>(1, covered))) : std::numeric_limits<double>::infinity();
+  stats.error =
+      both ? std::sqrt(squares / double(std::max<std::size_t>(1, covered))) : std::numeric_limits<double>::infinity();
   return stats;
 }
 

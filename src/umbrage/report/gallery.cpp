@@ -113,12 +113,18 @@ std::string tab(const char* label, const std::string& file, bool slides, bool pr
 std::string verdict(const GalleryEntry& entry) {
   if (!entry.error) return "<p>What it shows is taken as the truth.</p>\n";
   const GalleryError& error = *entry.error;
-  if (error.differing == 0) return fmt::format("<p class=\"good\">Every pixel equals {}.</p>\n", escaped(error.truth));
+  if (error.differing == 0)
+    return fmt::format("<p class=\"good\">Every pixel{} equals {}.</p>\n", error.unknown > 0 ? " that it knows" : "", escaped(error.truth));
   const auto differ =
       fmt::format("{} of {} pixels differ from {} ({}), RMS error {:.4f}", error.differing, error.covered,
                   escaped(error.truth), percent(share(error.differing, error.covered)), error.rms);
   if (error.astray == 0) return fmt::format("<p class=\"good\">{}; none of them away from an edge.</p>\n", differ);
   return fmt::format("<p class=\"bad\">{}; {} of them away from every edge.</p>\n", differ, error.astray);
+}
+
+std::string unknown(const GalleryEntry& entry) {
+  if (!entry.error || entry.error->unknown == 0) return {};
+  return fmt::format("<p>{} pixels are not judged: it knows no shadows on what they show.</p>\n", entry.error->unknown);
 }
 
 std::string badges(const GalleryEntry& entry) {

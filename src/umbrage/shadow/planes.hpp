@@ -31,8 +31,9 @@ struct ScenePlane {
 
 /// Planes of a scene with the triangles that lie in them.
 struct ScenePlanes {
-  std::vector<ScenePlane> planes;      ///< those found from the largest; those given in their order, whether or not anything lies in them
-  std::vector<std::uint8_t> planeOf;   ///< per triangle of the surfaces: 1 + its plane, or 0
+  std::vector<ScenePlane>
+      planes;  ///< those found from the largest; those given in their order, whether or not anything lies in them
+  std::vector<std::uint8_t> planeOf;  ///< per triangle of the surfaces: 1 + its plane, or 0
 };
 
 /// 1. A triangle lies in a plane when its corners do, up to what rounding of coordinates to single precision moves them.

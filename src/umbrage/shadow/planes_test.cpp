@@ -13,7 +13,8 @@ using shapes::quad;
 scene::Surfaces boxOnGround(const Vec3& shift = Vec3(0.0)) {
   Mat4 m(1.0);
   m[3] = Vec4(shift, 1.0);
-  return scene::flatten(shapes::scene({box({0, 0, 0}, {1, 2, 3}), quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0})}, m));
+  return scene::flatten(
+      shapes::scene({box({0, 0, 0}, {1, 2, 3}), quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0})}, m));
 }
 
 TEST(Planes, OfABoxOnAGroundAreSixTheGroundFirst) {
@@ -36,7 +37,8 @@ TEST(Planes, AreTheLargestAndLargeEnough) {
   // The square of the diagonal of all is 657, the ground has an area of 324.
   const auto large = findPlanes(surfaces, {.leastShare = 0.4});
   ASSERT_EQ(large.planes.size(), 1u);
-  for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t) EXPECT_EQ(large.planeOf[t] != 0, surfaces.normal(t).z != 0.0 && surfaces.corner(t, 0).z == 0.0);
+  for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t)
+    EXPECT_EQ(large.planeOf[t] != 0, surfaces.normal(t).z != 0.0 && surfaces.corner(t, 0).z == 0.0);
 }
 
 TEST(Planes, GivenOnesHoldWhatLiesInThem) {
@@ -45,7 +47,9 @@ TEST(Planes, GivenOnesHoldWhatLiesInThem) {
   ASSERT_EQ(found.planes.size(), 2u);
   EXPECT_NEAR(found.planes[0].area, 2.0, 1e-12);
   EXPECT_EQ(found.planes[1].area, 0.0);
-  for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t) EXPECT_EQ(found.planeOf[t] != 0, surfaces.corner(t, 0).z == 3.0 && surfaces.corner(t, 1).z == 3.0 && surfaces.corner(t, 2).z == 3.0);
+  for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t)
+    EXPECT_EQ(found.planeOf[t] != 0,
+              surfaces.corner(t, 0).z == 3.0 && surfaces.corner(t, 1).z == 3.0 && surfaces.corner(t, 2).z == 3.0);
 }
 
 // Parts of one wall that were rotated and rounded by themselves; steps a hand's breadth apart stay apart.

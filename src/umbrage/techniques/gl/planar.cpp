@@ -132,7 +132,8 @@ class Planar final : public render::MaskPainter {
     return {};
   }
 
-  Result<void> paint(const render::SeenFrame& frame, const render::MaskLight& light, shadow::LightStats& stats) override {
+  Result<void> paint(const render::SeenFrame& frame, const render::MaskLight& light,
+                     shadow::LightStats& stats) override {
     stats.method = "planar";
     clearShadow(frame);
     if (auto done = chooseCasters(frame.geometry.surfaces, light.light); !done) return done;
@@ -140,8 +141,8 @@ class Planar final : public render::MaskPainter {
       if (auto done = project(frame, light, p, stats); !done) return done;
     stats.reason = "casters projected onto " + std::to_string(stats.planes) + " of " +
                    std::to_string(planes_.planes.size()) + " planes; other surfaces have no shadows";
-    render::run(frame.scope,
-                render::planMask(frame.placement, static_cast<int>(light.slot), light.area, kShadowBit), frame.input);
+    render::run(frame.scope, render::planMask(frame.placement, static_cast<int>(light.slot), light.area, kShadowBit),
+                frame.input);
     return {};
   }
 
@@ -172,8 +173,7 @@ class Planar final : public render::MaskPainter {
                        shadow::LightStats& stats) {
     const Vec3& origin = frame.geometry.surfaces.origin;
     const shadow::ScenePlane& plane = planes_.planes[which];
-    const gl::Rect area = gl::intersect(
-        light.area, render::boxArea(frame.view, plane.bounds, origin, frame.placement));
+    const gl::Rect area = gl::intersect(light.area, render::boxArea(frame.view, plane.bounds, origin, frame.placement));
     if (area.empty()) return {};
     Vec4 lamp = scene::homogeneous(light.light, origin);
     const double lightSide = glm::dot(plane.equation, lamp);
@@ -230,7 +230,8 @@ class Planar final : public render::MaskPainter {
     pass.uniforms(0, frame.input.lights[light.slot].view);
     pass.uniforms(1, uniforms_);
     pass.storage(0, frame.input.positions);
-    for (const render::IndexRange& range : ranges) pass.drawIndexed(isAll_ ? vertices_ : someVertices_, range.first, range.count);
+    for (const render::IndexRange& range : ranges)
+      pass.drawIndexed(isAll_ ? vertices_ : someVertices_, range.first, range.count);
   }
 
   shadow::PlaneSearch search_;
@@ -247,17 +248,18 @@ class Planar final : public render::MaskPainter {
 }  // namespace
 
 shadow::Traits planarTraits() {
-  return {.name = "planar",
-          .summary = "Casters projected onto the largest planes of the scene; exact there, no shadows on other surfaces",
-          .soft = true,
-          .needsGraphics = true,
-          .edgeTolerancePx = 1};
+  return {
+      .name = "planar",
+      .summary = "Casters projected onto the largest planes of the scene; exact there, no shadows on other surfaces",
+      .soft = true,
+      .needsGraphics = true,
+      .edgeTolerancePx = 1};
 }
 
 std::unique_ptr<render::GlTechnique> makePlanar(std::shared_ptr<gl::Context> context,
                                                 const shadow::PlaneSearch& planes) {
-  return render::makeMaskTechnique(planarTraits(), [planes] { return std::make_unique<Planar>(planes); },
-                                   std::move(context));
+  return render::makeMaskTechnique(
+      planarTraits(), [planes] { return std::make_unique<Planar>(planes); }, std::move(context));
 }
 
 }  // namespace umbrage::techniques

@@ -11,6 +11,8 @@
 #include "umbrage/gl/read_back.hpp"
 #include "umbrage/image/compare.hpp"
 #include "umbrage/shadow/composite.hpp"
+#include "umbrage/shadow/light_samples.hpp"
+#include "umbrage/shadow/unshadowed.hpp"
 
 namespace umbrage::techniques {
 namespace {
@@ -37,9 +39,7 @@ class Planar : public ::testing::Test {
 std::size_t wrong(const shadow::Shading& shading, const Truth& truth, const scene::Camera& camera,
                   const scene::Light& light) {
   const auto expected = truth.mask(camera, light);
-  auto mine = shading.masks[0];
-  for (std::size_t i = 0; i < mine.light.size(); ++i)
-    if (shading.unshadowed.pixels()[i] != 0) mine.light.pixels()[i] = expected.light.pixels()[i];
+  const auto mine = shadow::whereKnown(shading.masks[0], shading.unshadowed, expected);
   return shadow::compare(mine, expected, truth.edges(camera, expected), 1).farFromEdge;
 }
 
@@ -74,7 +74,8 @@ TEST_F(Planar, TellsWhereItKnowsNoShadowsAndLightsWhatFacesTheLightThere) {
   ASSERT_TRUE(shading);
   EXPECT_EQ(shading->stats.lights[0].planes, 1u);
   EXPECT_EQ(shading->stats.lights[0].method, "planar");
-  const auto facing = shadow::visibleSideFacesLight(geometry->surfaces, Vec4(camera.eye, 1.0), scene::homogeneous(sun, Vec3(0.0)));
+  const auto facing =
+      shadow::visibleSideFacesLight(geometry->surfaces, Vec4(camera.eye, 1.0), scene::homogeneous(sun, Vec3(0.0)));
   std::size_t unknown = 0;
   for (std::size_t i = 0; i < shading->unshadowed.size(); ++i) {
     const std::uint32_t seen = shading->surface.triangle.pixels()[i];
@@ -94,7 +95,8 @@ TEST_F(Planar, CastersBeyondTheLightOrBelowThePlaneCastNoFalseShadow) {
   s.materials = {{}};
   s.meshes = {boxMesh()};
   // Above the lamp, around its height, below the ground, and through the ground.
-  s.instances = {box({-1, -1, 6}, {2, 2, 1}), box({3, 0, 2}, {1, 1, 4}), box({-3, 2, -2}, {1, 1, 1}), box({0, 3, -1}, {1, 1, 2})};
+  s.instances = {box({-1, -1, 6}, {2, 2, 1}), box({3, 0, 2}, {1, 1, 4}), box({-3, 2, -2}, {1, 1, 1}),
+                 box({0, 3, -1}, {1, 1, 2})};
   const auto geometry = shadow::makeGeometry(scene::withGround(s, 0.0));
   const auto technique = prepared(geometry, {.most = 1});
   const Truth truth{geometry->surfaces};
@@ -227,6 +229,28 @@ TEST_F(Planar, PenumbraOfAHalfPlaneFollowsItsClosedForm) {
     EXPECT_LT(shading->stats.lights[0].soft->error, 0.02);
     std::printf("%s: worst %.4f\n", ball ? "ball" : "disc", worst);
   }
+}
+
+// A wall seen from its front, in whose plane a disc lies: points of the light behind the wall do not reach it, those before it do.
+TEST_F(Planar, PointsBehindASurfaceDoNotReachIt) {
+  auto wall = std::make_shared<mesh::Mesh>();
+  wall->positions = {{0, -9, 0}, {0, 9, 0}, {0, 9, 9}, {0, -9, 9}};
+  wall->triangles = {{0, 1, 2}, {0, 2, 3}};
+  scene::Scene s;
+  s.materials = {{}};
+  s.meshes = {wall};
+  s.instances = {{"wall", 0}};
+  const auto technique = prepared(shadow::makeGeometry(s));
+  const scene::Light light{scene::DiscLight{{0.3, 0, 20}, {0, 0, -1}, 1.0}};
+  const auto shading =
+      technique->shade({.camera = cameraFrom({8, 1, 5}, {0, 0, 5}), .lights = {&light, 1}, .soft = {.samples = 64}});
+  ASSERT_TRUE(shading);
+  int before = 0;
+  for (const auto& sample : shadow::lightSamples(light, 0, 64))
+    before += std::get<scene::SpotLight>(sample.light.shape).position.x > 0.0;
+  EXPECT_GT(before, 32);
+  EXPECT_LT(before, 60);
+  EXPECT_EQ(shading->masks[0].light(kWidth / 2, kHeight / 2), std::lround(255.0 * before / 64.0));
 }
 
 TEST_F(Planar, StopsWhenTheErrorIsSmallEnoughOrTheUserSaysSo) {

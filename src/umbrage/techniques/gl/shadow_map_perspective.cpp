@@ -16,9 +16,7 @@ std::unique_ptr<render::GlTechnique> makePerspectiveShadowMap(std::shared_ptr<gl
                                                               const render::ShadowMapOptions& options) {
   return render::makeMaskTechnique(
       perspectiveShadowMapTraits(),
-      [options] {
-        return render::makeMapPainter(perspectiveShadowMapTraits().name, render::perspectiveMaps, options);
-      },
+      [options] { return render::makeMapPainter(perspectiveShadowMapTraits().name, render::perspectiveMaps, options); },
       std::move(context));
 }
 

@@ -9,7 +9,7 @@ namespace umbrage::techniques {
 /// the picture better it is the same as shadow_map, and the reason says so.
 /// Source: M. Stamminger and G. Drettakis, perspective shadow maps, 2002.
 [[nodiscard]] shadow::Traits perspectiveShadowMapTraits();
-[[nodiscard]] std::unique_ptr<render::GlTechnique> makePerspectiveShadowMap(std::shared_ptr<gl::Context> context,
-                                                                            const render::ShadowMapOptions& options = {});
+[[nodiscard]] std::unique_ptr<render::GlTechnique> makePerspectiveShadowMap(
+    std::shared_ptr<gl::Context> context, const render::ShadowMapOptions& options = {});
 
 }  // namespace umbrage::techniques

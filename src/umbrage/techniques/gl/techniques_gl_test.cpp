@@ -288,7 +288,8 @@ TEST_P(StencilTechniques, TellWhatTheyDid) {
   EXPECT_GT(stats.lights[0].volumeTriangles, 0u);
   std::vector<std::string> names;
   for (const auto& phase : stats.phases) names.push_back(phase.name);
-  std::vector<std::string> phases{"facing", "depth", "tiles", "silhouette", "useless", "layers", "extrude", "upload", "volumes", "lit", "readback"};
+  std::vector<std::string> phases{"facing",  "depth",  "tiles",   "silhouette", "useless", "layers",
+                                  "extrude", "upload", "volumes", "lit",        "readback"};
   if (isPlain()) std::erase(phases, "tiles");
   EXPECT_EQ(names, phases);
 }
