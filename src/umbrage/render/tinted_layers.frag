@@ -4,12 +4,13 @@ layout(std140, binding = 0) uniform Tinted {
   vec4 eyeHigh;      // the eye in two floats a component, so that position - eye is exact near the eye
   vec4 eyeLow;
   vec4 scale;        // one step of a filter; the distance below which surfaces count as one
-  int firstLayer;    // of the two that are asked about; below 0: the opaque surface is
+  int firstLayer;    // of the two that are asked about; -1: the opaque surface is; -2: nothing is, and it is dark
   int litLayers;     // so many veils of each pixel are lit by themselves
   int hasVeils;
   int width;         // of the picture
   int pixelCount;    // tints of veils come after those of the opaque surfaces
   int light;         // which
+  int hasSums;       // else nothing takes anything from the light but what the stencil counts
 };
 layout(std430, binding = 1) readonly buffer LightBits { uint lightBits[]; };  // 4 bits a triangle: the visible side faces the light; lightSide is 1; is -1
 layout(std430, binding = 2) readonly buffer Pixels { uvec2 pixel[]; };  // where its veils begin, and how many they are

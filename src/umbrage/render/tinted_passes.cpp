@@ -11,6 +11,7 @@
 #include <umbrage_shaders/tinted_volume_frag.hpp>
 #include <umbrage_shaders/tinted_volume_layers_frag.hpp>
 #include <umbrage_shaders/tinted_volume_vert.hpp>
+#include <umbrage_shaders/volume_frag.hpp>
 
 #include <bit>
 
@@ -23,6 +24,9 @@ namespace {
 constexpr std::size_t kTintBytes = 8;       // as the shaders have it
 constexpr std::size_t kVeilLightBytes = 16;  // likewise
 constexpr int kLayersAtOnce = 2;             // likewise
+constexpr int kOpaque = -1, kDark = -2;      // TintedBlock::firstLayer where no layers are asked about
+// Of the stencil: the highest bit marks where something is to be summed up, the others count.
+constexpr std::uint8_t kMark = 0x80, kCountBits = 0x7f;
 
 /// A surface as the shaders know it, as std430 lays it out.
 struct Face {
@@ -90,7 +94,7 @@ std::array<std::array<float, 4>, TintTargets::kPairs> partsOf(const TintWeight& 
 struct TintedPasses::Programs {
   gl::Program receivers{shaders::kScreenVert, shaders::kTintedReceiversFrag},
       layers{shaders::kScreenVert, shaders::kTintedLayersFrag}, tiles{shaders::kScreenVert, shaders::kTintedTilesFrag},
-      volume{shaders::kTintedVolumeVert, shaders::kTintedVolumeFrag},
+      volume{shaders::kTintedVolumeVert, shaders::kTintedVolumeFrag}, volumeCount{shaders::kTintedVolumeVert, shaders::kVolumeFrag},
       volumeLayers{shaders::kTintedVolumeVert, shaders::kTintedVolumeLayersFrag},
       reach{shaders::kScreenVert, shaders::kTintedReachFrag}, ambient{shaders::kScreenVert, shaders::kAmbientFrag},
       light{shaders::kScreenVert, shaders::kTintedLightFrag}, encode{shaders::kScreenVert, shaders::kTintedEncodeFrag};
@@ -124,6 +128,7 @@ Result<void> TintedPasses::setBlock(const TintedFrame& frame, int firstLayer, in
   TintedBlock block = frame.block;
   block.firstLayer = firstLayer;
   block.light = light;
+  block.hasSums = !byStencil_ || hasTinted_ || firstLayer >= 0 ? 1 : 0;
   return block_.setOne(block);
 }
 
@@ -140,7 +145,7 @@ Result<void> TintedPasses::setLight(const TintedFrame& frame, const TintedLight&
 
 Result<image::Image<Vec2f>> TintedPasses::receivers(const TintedFrame& frame) {
   const int columns = tilesFor(frame.target.width()), rows = tilesFor(frame.target.height());
-  if (auto done = setBlock(frame, -1, 0); !done) return tl::unexpected(done.error());
+  if (auto done = setBlock(frame, kOpaque, 0); !done) return tl::unexpected(done.error());
   {
     gl::PassState state;
     state.viewport = {0, 0, columns, rows};
@@ -170,21 +175,41 @@ Result<void> TintedPasses::setVolume(const TintedVolume& volume) {
   passSides_ = volume.passSides, passCaps_ = volume.passCaps;
   failSides_ = volume.failSides, failCaps_ = volume.failCaps;
   atEye_ = volume.atEye;
+  byStencil_ = volume.fitsStencil;
+  hasTinted_ = volume.hasTinted();
   for (const auto& done : {setStorage(pieces_, std::as_bytes(std::span(volume.pieces)), "sides of shadow volumes"),
                            farPoints_.setAll(volume.farPoints), setPatterns(volume.pieces.size())})
     if (!done) return done;
   return {};
 }
 
-// Where there is something to be summed up, by a 1 in the stencil.
+// The sums start from what is there at the eye.
+void TintedPasses::begin(const TintedFrame& frame, const TintedLight& light, bool layers) {
+  gl::PassState state = screenState(frame);
+  const bool byStencil = !layers && byStencil_;
+  TintWeight start = atEye_;
+  if (byStencil) start.opaque = 0;
+  if (layers || !byStencil || hasTinted_) {
+    state.colourWrite = true;
+    state.colourTargets = layers ? gl::kColourTargets : static_cast<int>(TintTargets::kPairs);
+    state.scissor = light.litArea;
+    gl::Pass pass(frame.scope, layers ? frame.target.tints().layers : frame.target.tints().opaque, state);
+    const auto parts = partsOf(start);
+    for (int i = 0; i < state.colourTargets; ++i)
+      pass.clearColour(parts[static_cast<std::size_t>(i) % TintTargets::kPairs], i);
+  }
+  gl::Pass pass(frame.scope, frame.target.stencilTarget(), screenState(frame));
+  pass.clearStencil(byStencil ? static_cast<std::uint8_t>(atEye_.opaque & kCountBits) : 0);
+}
+
+// Where there is something to be summed up.
 void TintedPasses::mark(const TintedFrame& frame, const gl::Rect& area, bool layers) {
   gl::PassState state = screenState(frame);
   const gl::StencilFace write{.pass = gl::StencilOp::replace};
-  state.stencil = {.test = true, .reference = 1, .front = write, .back = write};
+  state.stencil = {.test = true, .reference = kMark, .writeMask = kMark, .front = write, .back = write};
   state.scissor = area;
   state.colourWrite = layers;
   gl::Pass pass(frame.scope, layers ? frame.target.tints().depthsTarget : frame.target.stencilTarget(), state);
-  pass.clearStencil(0);
   pass.use(layers ? programs_->layers : programs_->receivers);
   pass.uniforms(0, block_);
   pass.storage(1, bits_);
@@ -196,55 +221,81 @@ void TintedPasses::mark(const TintedFrame& frame, const gl::Rect& area, bool lay
   pass.draw(screen_, 3);
 }
 
-void TintedPasses::count(const TintedFrame& frame, const gl::Rect& area, bool layers, Counted counted) {
-  const IndexRange& sides = counted == behind ? failSides_ : passSides_;
-  const IndexRange& caps = counted == before ? passCaps_ : failCaps_;
-  const bool hasSides = counted != everywhere && sides.count > 0, hasCaps = counted != behind && caps.count > 0;
-  if (!hasSides && !hasCaps) return;
+void TintedPasses::drawPieces(gl::Pass& pass, const TintedFrame& frame, const IndexRange& sides, const IndexRange& caps) {
+  pass.uniforms(0, view_);
+  pass.storage(0, frame.scene.positions());
+  pass.storage(1, farPoints_);
+  pass.storage(2, pieces_);
+  if (sides.count > 0) pass.drawIndexed(quadVertices_, 6 * sides.first, 6 * sides.count);
+  if (caps.count > 0) pass.drawIndexed(triangleVertices_, 3 * caps.first, 3 * caps.count);
+}
+
+// In the lower bits, as all stencil volumes are. What counts behind is told by its turned comparison.
+void TintedPasses::countOpaque(const TintedFrame& frame, const gl::Rect& area, Counted counted) {
+  const IndexRange sides = counted == everywhere ? IndexRange{} : (counted == behind ? failSides_ : passSides_).ofOpaque();
+  const IndexRange caps = counted == behind ? IndexRange{} : (counted == before ? passCaps_ : failCaps_).ofOpaque();
+  if (sides.count + caps.count == 0) return;
+  const gl::StencilFace up{.pass = gl::StencilOp::increment}, down{.pass = gl::StencilOp::decrement};
+  gl::PassState state = frame.placement;
+  const auto compare = counted == before ? gl::Compare::greater : gl::Compare::lessOrEqual;
+  state.depth = {.test = counted != everywhere, .pass = compare, .write = false, .clamp = true};
+  state.stencil = {.test = true,
+                   .compare = gl::Compare::equal,
+                   .reference = kMark,
+                   .readMask = kMark,
+                   .writeMask = kCountBits,
+                   .front = counted == before ? up : down,
+                   .back = counted == before ? down : up};
+  state.scissor = area;
+  gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
+  pass.use(programs_->volumeCount);
+  drawPieces(pass, frame, sides, caps);
+}
+
+void TintedPasses::addTinted(const TintedFrame& frame, const gl::Rect& area, bool layers, Counted counted) {
+  const bool whole = layers || !byStencil_;
+  const auto range = [&](const PieceRange& pieces) { return whole ? pieces.all() : pieces.ofTinted(); };
+  const IndexRange sides = counted == everywhere ? IndexRange{} : range(counted == behind ? failSides_ : passSides_);
+  const IndexRange caps = counted == behind ? IndexRange{} : range(counted == before ? passCaps_ : failCaps_);
+  if (sides.count + caps.count == 0) return;
   const TintTargets& tints = frame.target.tints();
   gl::PassState state = frame.placement;
   // What is behind the opaque surface is before no veil; what is not may still be behind one.
   const bool isCompared = counted == before || (counted == behind && !layers);
   const auto compare = counted == before ? gl::Compare::greater : gl::Compare::lessOrEqual;
   state.depth = {.test = isCompared, .pass = compare, .write = false, .clamp = true};
-  state.stencil = {.test = true, .compare = gl::Compare::equal, .reference = 1};
+  // What opaque casters have darkened already stays dark.
+  state.stencil = {.test = true, .compare = gl::Compare::equal, .reference = kMark};
   state.blend = gl::Blend::add;
   state.colourWrite = true;
   state.colourTargets = layers ? gl::kColourTargets : static_cast<int>(TintTargets::kPairs);
   state.scissor = area;
   gl::Pass pass(frame.scope, layers ? tints.layers : tints.opaque, state);
   pass.use(layers ? programs_->volumeLayers : programs_->volume);
-  pass.uniforms(0, view_);
-  pass.storage(0, frame.scene.positions());
-  pass.storage(1, farPoints_);
-  pass.storage(2, pieces_);
   if (layers) {
     pass.uniforms(1, counted_[counted]);
     pass.texture(0, tints.depths);
   }
-  if (hasSides) pass.drawIndexed(quadVertices_, 6 * sides.first, 6 * sides.count);
-  if (hasCaps) pass.drawIndexed(triangleVertices_, 3 * caps.first, 3 * caps.count);
+  drawPieces(pass, frame, sides, caps);
 }
 
 void TintedPasses::sum(const TintedFrame& frame, const TintedLight& light, bool layers) {
   const gl::Rect area = gl::intersect(light.volumeArea, light.litArea);
-  {
-    gl::PassState state = screenState(frame);
-    state.colourWrite = true;
-    state.colourTargets = layers ? gl::kColourTargets : static_cast<int>(TintTargets::kPairs);
-    state.scissor = light.litArea;
-    gl::Pass pass(frame.scope, layers ? frame.target.tints().layers : frame.target.tints().opaque, state);
-    const auto start = partsOf(atEye_);
-    for (int i = 0; i < state.colourTargets; ++i)
-      pass.clearColour(start[static_cast<std::size_t>(i) % TintTargets::kPairs], i);
-  }
+  begin(frame, light, layers);
   if (area.empty()) return;
   mark(frame, area, layers);
-  for (const Counted counted : {before, behind, everywhere}) count(frame, area, layers, counted);
+  constexpr std::array kAll{before, behind, everywhere};
+  if (!layers && byStencil_)
+    for (const Counted counted : kAll) countOpaque(frame, area, counted);
+  for (const Counted counted : kAll) addTinted(frame, area, layers, counted);
 }
 
-void TintedPasses::writeTints(const TintedFrame& frame, bool layers) {
-  gl::Pass pass(frame.scope, frame.target.stencilTarget(), screenState(frame));
+// `lit`: where opaque casters leave any light.
+void TintedPasses::writeTints(const TintedFrame& frame, bool layers, bool lit) {
+  gl::PassState state = screenState(frame);
+  if (lit && byStencil_)
+    state.stencil = {.test = true, .compare = gl::Compare::equal, .reference = 0, .readMask = kCountBits};
+  gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
   pass.use(programs_->reach);
   pass.uniforms(0, block_);
   pass.uniforms(1, shading_);
@@ -267,19 +318,20 @@ Result<void> TintedPasses::reach(const TintedFrame& frame, const TintedLight& li
     gl::finish();
     ended(phase);
   };
-  const auto layer = [&](int first) -> Result<void> {
-    const bool layers = first >= 0;
-    if (auto done = setBlock(frame, first, light.number); !done) return done;
-    sum(frame, light, layers);
-    end(layers ? "layers" : "volumes");
-    writeTints(frame, layers);
-    end("lit");
-    return {};
-  };
-  if (auto done = layer(-1); !done) return done;
+  if (auto done = setBlock(frame, kDark, light.number); !done) return done;
+  writeTints(frame, false, false);
+  if (auto done = setBlock(frame, kOpaque, light.number); !done) return done;
+  sum(frame, light, false);
+  end("volumes");
+  writeTints(frame, false, true);
+  end("lit");
   const int layers = static_cast<int>(frame.layers());
-  for (int first = 0; first < layers; first += kLayersAtOnce)
-    if (auto done = layer(first); !done) return done;
+  for (int first = 0; first < layers; first += kLayersAtOnce) {
+    if (auto done = setBlock(frame, first, light.number); !done) return done;
+    sum(frame, light, true);
+    writeTints(frame, true, false);
+    end("layers");
+  }
   return {};
 }
 
@@ -299,7 +351,7 @@ Result<void> TintedPasses::beginPicture(const TintedFrame& frame, const gl::Buff
 }
 
 Result<void> TintedPasses::addLight(const TintedFrame& frame, int light) {
-  if (auto done = setBlock(frame, -1, light); !done) return done;
+  if (auto done = setBlock(frame, kOpaque, light); !done) return done;
   gl::PassState state = screenState(frame);
   state.colourWrite = true;
   state.blend = gl::Blend::add;
@@ -320,7 +372,7 @@ Result<void> TintedPasses::addLight(const TintedFrame& frame, int light) {
 }
 
 Result<void> TintedPasses::endPicture(const TintedFrame& frame, const gl::Buffer& shading, std::size_t lights) {
-  if (auto done = setBlock(frame, -1, static_cast<int>(lights)); !done) return done;
+  if (auto done = setBlock(frame, kOpaque, static_cast<int>(lights)); !done) return done;
   gl::PassState state = screenState(frame);
   state.colourWrite = true;
   gl::Pass pass(frame.scope, frame.target.pictureTarget(), state);

@@ -14,8 +14,8 @@ namespace umbrage::render {
 struct TintedBlock {
   Vec4f eyeHigh, eyeLow;  ///< relative to the origin of the positions
   Vec4f scale;            ///< one step of a filter; the distance below which surfaces count as one
-  std::int32_t firstLayer = -1, litLayers = 0, hasVeils = 0, width = 0, pixelCount = 0, light = 0;
-  std::array<std::int32_t, 2> unused{};
+  std::int32_t firstLayer = 0, litLayers = 0, hasVeils = 0, width = 0, pixelCount = 0, light = 0;
+  std::int32_t hasSums = 1, unused = 0;
 };
 
 /// What the passes of one frame work on.
@@ -78,10 +78,13 @@ class TintedPasses {
   TintedPasses();
   [[nodiscard]] Result<void> setBlock(const TintedFrame& frame, int firstLayer, int light);
   [[nodiscard]] Result<void> setPatterns(std::size_t pieces);
+  void begin(const TintedFrame& frame, const TintedLight& light, bool layers);
   void mark(const TintedFrame& frame, const gl::Rect& area, bool layers);
   void sum(const TintedFrame& frame, const TintedLight& light, bool layers);
-  void count(const TintedFrame& frame, const gl::Rect& area, bool layers, Counted counted);
-  void writeTints(const TintedFrame& frame, bool layers);
+  void drawPieces(gl::Pass& pass, const TintedFrame& frame, const IndexRange& sides, const IndexRange& caps);
+  void countOpaque(const TintedFrame& frame, const gl::Rect& area, Counted counted);
+  void addTinted(const TintedFrame& frame, const gl::Rect& area, bool layers, Counted counted);
+  void writeTints(const TintedFrame& frame, bool layers, bool lit);
 
   std::unique_ptr<Programs> programs_;
   gl::Buffer faces_, bits_, block_, view_, shading_, pieces_, farPoints_, tints_, veilLight_, colours_, passing_;
@@ -89,8 +92,10 @@ class TintedPasses {
   gl::Buffer quads_, triangles_;  ///< indices of sides and of caps, piece by piece
   gl::VertexArray quadVertices_{quads_}, triangleVertices_{triangles_}, screen_;
   std::size_t patterns_ = 0;  ///< pieces that the indices reach
-  IndexRange passSides_, passCaps_, failSides_, failCaps_;
+  PieceRange passSides_, passCaps_, failSides_, failCaps_;
   TintWeight atEye_;
+  bool byStencil_ = false;   ///< opaque casters are counted in the stencil, for the opaque surfaces
+  bool hasTinted_ = false;
 };
 
 }  // namespace umbrage::render

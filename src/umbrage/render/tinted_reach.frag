@@ -1,15 +1,17 @@
 #version 450 core
 // What of the light reaches the surfaces that a pixel shows: the opaque one, or two of its veils. Nothing is drawn; tints are written.
+layout(early_fragment_tests) in;  // the stencil decides before anything is written
 layout(std140, binding = 0) uniform Tinted {
   vec4 eyeHigh;      // the eye in two floats a component, so that position - eye is exact near the eye
   vec4 eyeLow;
   vec4 scale;        // one step of a filter; the distance below which surfaces count as one
-  int firstLayer;    // of the two that are asked about; below 0: the opaque surface is
+  int firstLayer;    // of the two that are asked about; -1: the opaque surface is; -2: nothing is, and it is dark
   int litLayers;     // so many veils of each pixel are lit by themselves
   int hasVeils;
   int width;         // of the picture
   int pixelCount;    // tints of veils come after those of the opaque surfaces
   int light;         // which
+  int hasSums;       // else nothing takes anything from the light but what the stencil counts
 };
 layout(std140, binding = 1) uniform Shading {
   vec4 rayCorner;   // the ray through window coordinates (x, y): rayCorner + x * rayX + y * rayY, relative to the eye
@@ -101,15 +103,17 @@ void main() {
   uvec2 own = hasVeils != 0 ? pixel[place] : uvec2(0u);
   uint lit = uint(litLayers), count = own.y;
   ivec3 crossed = ivec3(0);
-  if (firstLayer < 0) {
-    for (uint k = 0u; k < count; ++k) {
-      uint seen = veil[own.x + k].x;
-      if (lit == 0u) tints[pixelCount + own.x + k] = isLit(seen & kId, ray) ? kFull : uvec2(0u);
-      crossed += crossing(seen);
-    }
+  if (firstLayer == -2) {
+    tints[place] = uvec2(0u);
+    if (lit > 0u) return;
+    for (uint k = 0u; k < count; ++k) tints[pixelCount + own.x + k] = isLit(veil[own.x + k].x & kId, ray) ? kFull : uvec2(0u);
+    return;
+  }
+  if (firstLayer == -1) {
     uint id = texelFetch(ids, at, 0).r;
-    bool is = id != kNone && isLit(id, ray);
-    tints[place] = is ? reaching(id, sumAt(at, 0), own, count, crossed, ray) : uvec2(0u);
+    if (id == kNone || !isLit(id, ray)) return;
+    for (uint k = 0u; k < count; ++k) crossed += crossing(veil[own.x + k].x);
+    tints[place] = reaching(id, hasSums != 0 ? sumAt(at, 0) : ivec4(0), own, count, crossed, ray);
     return;
   }
   uint first = uint(firstLayer), end = min(first + 2u, min(count, lit));
