@@ -1,5 +1,6 @@
 #include "umbrage/techniques/gl/registry.hpp"
 
+#include "umbrage/techniques/gl/soft.hpp"
 #include "umbrage/techniques/gl/transparent.hpp"
 #include "umbrage/techniques/gl/zfail.hpp"
 #include "umbrage/techniques/gl/zmixed.hpp"
@@ -31,7 +32,8 @@ std::vector<shadow::TechniqueEntry> openGlTechniques(const render::VolumeOptions
   return {entry(zFailTraits(), makeZFail, slot, options), entry(zPassTraits(), makeZPass, slot, options),
           entry(zMixedTraits(), makeZMixed, slot, options), entry(zPassPlusTraits(), makeZPassPlus, slot, options),
           entry(transparentTraits(), makeTransparent, slot, options),
-          entry(transparentZFailTraits(), makeTransparentZFail, slot, options)};
+          entry(transparentZFailTraits(), makeTransparentZFail, slot, options),
+          entry(softTraits(), makeSoft, slot, options)};
 }
 
 }  // namespace umbrage::techniques
