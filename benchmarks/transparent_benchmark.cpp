@@ -1,4 +1,4 @@
-// Frames with coloured transparent casters beside the opaque shadow volumes of the same scene: paired rounds in one run, 1280 x 720.
+// Frames with coloured transparent casters beside the opaque shadow volumes of the same scene, on the processor and by OpenGL: paired rounds in one run, 1280 x 720.
 //   build/release/bin/umbrage_transparent_benchmark [ROUNDS [NAME]]   cases whose name has NAME in it
 // Times are medians, in milliseconds; ratios are those of the medians.
 #include <fmt/format.h>
@@ -12,6 +12,10 @@
 #include "scenes/staged_scene.hpp"
 #include "umbrage/shadow/composite.hpp"
 #include "umbrage/techniques/cpu/registry.hpp"
+#ifdef UMBRAGE_HAVE_TECHNIQUES_GL
+#include "umbrage/techniques/gl/transparent.hpp"
+#include "umbrage/techniques/gl/zpass.hpp"
+#endif
 
 namespace umbrage::benchmarks {
 namespace {
@@ -110,6 +114,60 @@ void measure(Case c, int rounds) {
   }
 }
 
+#ifdef UMBRAGE_HAVE_TECHNIQUES_GL
+
+/// Whole frames by OpenGL: masks in main memory, and pictures that stay on the graphics card.
+struct GlWay {
+  const char* name;
+  std::unique_ptr<render::GlTechnique> technique;
+  std::optional<int> layers;
+  std::vector<double> masks = {}, pictures = {};
+};
+
+void frameBy(GlWay& way, const Case& c, render::GpuFrame& target, bool counts) {
+  const shadow::Frame frame{.camera = c.camera, .lights = {&c.light, 1}, .veilLayers = way.layers};
+  const render::PictureOptions options{.materials = c.scene.materials, .up = scene::upVector(c.scene.up)};
+  auto start = std::chrono::steady_clock::now();
+  const auto shading = way.technique->shade(frame);
+  const double masks = since(start);
+  if (!shading) return void(std::puts(shading.error().text().c_str()));
+  start = std::chrono::steady_clock::now();
+  if (auto done = way.technique->draw(target, frame, options); !done) return void(std::puts(done.error().text().c_str()));
+  gl::finish();
+  if (counts) way.masks.push_back(masks), way.pictures.push_back(since(start));
+}
+
+void measureGl(Case c, int rounds) {
+  c.camera.width = 1280, c.camera.height = 720;
+  auto context = gl::Context::createHeadless();
+  if (!context) return void(std::puts(context.error().text().c_str()));
+  const gl::CurrentContext current(*context);
+  const auto geometry = shadow::makeGeometry(c.scene);
+  std::vector<GlWay> ways;
+  ways.push_back({"zpass", techniques::makeZPass(*context), {}});
+  ways.push_back({"without self-shadows", techniques::makeTransparent(*context), 0});
+  ways.push_back({"with", techniques::makeTransparent(*context), {}});
+  ways.push_back({"by z-fail, without", techniques::makeTransparentZFail(*context), 0});
+  ways.push_back({"by z-fail, with", techniques::makeTransparentZFail(*context), {}});
+  auto target = render::GpuFrame::make(1280, 720);
+  if (!target) return;
+  for (GlWay& way : ways)
+    if (!way.technique->prepare(geometry)) return;
+  for (int i = -1; i < rounds; ++i)
+    for (GlWay& way : ways) frameBy(way, c, *target, i >= 0);
+  fmt::print("{}, OpenGL ({})\n", c.name, (*context)->renderer());
+  for (GlWay& way : ways) {
+    const double masks = median(way.masks), pictures = median(way.pictures);
+    fmt::print("  {:22} masks {:6.1f} ({:.2f}x)   pictures {:6.1f} ({:.2f}x)\n", way.name, masks, masks / median(ways[0].masks), pictures,
+               pictures / median(ways[0].pictures));
+    const auto shading = way.technique->shade({.camera = c.camera, .lights = {&c.light, 1}, .veilLayers = way.layers});
+    for (const auto& phase : shading->stats.phases) fmt::print("    {} {:.1f}", phase.name, phase.milliseconds);
+    fmt::print("\n");
+  }
+}
+
+#endif
+
 }  // namespace
 }  // namespace umbrage::benchmarks
 
@@ -117,5 +175,10 @@ int main(int count, char** arguments) {
   using namespace umbrage::benchmarks;
   const int rounds = count > 1 ? std::atoi(arguments[1]) : 9;
   for (Case& c : cases())
-    if (count < 3 || c.name.find(arguments[2]) != std::string::npos) measure(std::move(c), rounds);
+    if (count < 3 || c.name.find(arguments[2]) != std::string::npos) {
+#ifdef UMBRAGE_HAVE_TECHNIQUES_GL
+      measureGl(c, rounds);
+#endif
+      measure(std::move(c), rounds);
+    }
 }

@@ -9,7 +9,7 @@ namespace umbrage::gl {
 /// How many binding points of each kind the house uses, from 0; HostScope saves these and no more.
 inline constexpr int kUniformSlots = 3;
 inline constexpr int kStorageSlots = 8;
-inline constexpr int kTextureSlots = 9;
+inline constexpr int kTextureSlots = 5;
 
 /// A crossing of the border between a host's OpenGL state and ours: saves everything that a PassState and our draws can touch,
 /// sets the house baseline, and puts everything back at the end. Once per frame; also in contexts of our own.

@@ -76,6 +76,11 @@ Result<void> Buffer::allocate(std::size_t bytes, const std::byte* contents) {
   return {};
 }
 
+void Buffer::clear() {
+  const GLuint zero = 0;
+  glClearNamedBufferData(handle_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+}
+
 void Buffer::read(std::span<std::byte> out) const {
   UMBRAGE_CHECK(out.size() <= bytes_, "read past the end of a buffer");
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);

@@ -46,6 +46,8 @@ class Buffer {
   }
   /// Makes it at least so large, for shaders to write; what it holds then means nothing. Errors: as set().
   [[nodiscard]] Result<void> reserve(std::size_t bytes);
+  /// Sets all its bytes to 0.
+  void clear();
   /// Copies from its beginning, waiting for shaders that write it. REQUIRES: it holds as much.
   void read(std::span<std::byte> out) const;
   template <class T>

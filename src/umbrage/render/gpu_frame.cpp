@@ -51,35 +51,19 @@ Result<void> GpuFrame::needMaskSum() {
 
 Result<void> GpuFrame::needTints() {
   if (tints_.opaque.name() != 0) return {};
-  return addSums(0, tints_.opaque, &tints_.bare);
-}
-
-Result<void> GpuFrame::needLayers() {
-  if (tints_.layers.name() != 0) return {};
-  if (auto done = add(tints_.depths, tints_.depthsTarget, gl::Format::rg32f, width(), height(), &depthStencil_); !done)
-    return done;
-  return addSums(TintTargets::kPairs, tints_.layers, nullptr);
-}
-
-// The sums from `first` on, and a target of all up to them.
-Result<void> GpuFrame::addSums(std::size_t first, gl::Framebuffer& target, gl::Framebuffer* bare) {
   std::vector<const gl::Texture*> colours;
-  for (std::size_t i = 0; i < first + TintTargets::kPairs; ++i) {
-    if (i >= first) {
-      auto made = gl::Texture::make(gl::Format::rg32f, width(), height());
-      if (!made) return tl::unexpected(made.error());
-      tints_.sums[i] = std::move(*made);
-    }
-    colours.push_back(&tints_.sums[i]);
-  }
-  if (bare != nullptr) {
-    auto made = gl::Framebuffer::make(colours[0], nullptr);
+  for (gl::Texture& sum : tints_.sums) {
+    auto made = gl::Texture::make(gl::Format::rg32f, width(), height());
     if (!made) return tl::unexpected(made.error());
-    *bare = std::move(*made);
+    sum = std::move(*made);
+    colours.push_back(&sum);
   }
-  auto made = gl::Framebuffer::make(colours, &depthStencil_);
-  if (!made) return tl::unexpected(made.error());
-  target = std::move(*made);
+  auto bare = gl::Framebuffer::make(colours[0], nullptr);
+  if (!bare) return tl::unexpected(bare.error());
+  tints_.bare = std::move(*bare);
+  auto opaque = gl::Framebuffer::make(colours, &depthStencil_);
+  if (!opaque) return tl::unexpected(opaque.error());
+  tints_.opaque = std::move(*opaque);
   return {};
 }
 

@@ -14,12 +14,10 @@ inline constexpr int kTile = 16;
 
 /// Where shadow volumes sum up what casters take from the light, in pairs of channels that tinted_volume.frag tells.
 struct TintTargets {
-  static constexpr std::size_t kPairs = 4;     ///< per surface of a pixel
-  static constexpr std::size_t kSurfaces = 2;  ///< at once; the second with `layers` alone
-  std::array<gl::Texture, kSurfaces * kPairs> sums;
-  gl::Texture depths;                  ///< of two veils
-  gl::Framebuffer opaque, layers;      ///< one surface, and two; with depth and stencil
-  gl::Framebuffer depthsTarget, bare;  ///< with depth and stencil; one picture without depth, for what only writes storage
+  static constexpr std::size_t kPairs = 4;
+  std::array<gl::Texture, kPairs> sums;
+  gl::Framebuffer opaque;  ///< all of them, with depth and stencil
+  gl::Framebuffer bare;    ///< one picture without depth, for what only writes storage
 };
 
 /// The pictures that a frame is drawn into, of one size: triangle ids with depth and stencil; the tiles of a light's receivers, a mask
@@ -34,8 +32,6 @@ class GpuFrame {
   /// Room for the mean of many masks.
   [[nodiscard]] Result<void> needMaskSum();
   [[nodiscard]] Result<void> needTints();
-  /// What two veils need beside the opaque surface. REQUIRES: needTints().
-  [[nodiscard]] Result<void> needLayers();
 
   [[nodiscard]] int width() const { return depthStencil_.width(); }
   [[nodiscard]] int height() const { return depthStencil_.height(); }
@@ -65,7 +61,6 @@ class GpuFrame {
     gl::Framebuffer target;
   };
   GpuFrame() = default;
-  [[nodiscard]] Result<void> addSums(std::size_t first, gl::Framebuffer& target, gl::Framebuffer* bare);
   gl::Texture ids_, depthStencil_, tiles_, maskSum_, sum_, picture_;
   std::vector<Mask> masks_;
   TintTargets tints_;

@@ -6,7 +6,7 @@
 
 #include "umbrage/gl/read_back.hpp"
 #include "umbrage/render/frame_data.hpp"
-#include "umbrage/render/soft_sums.hpp"
+#include "umbrage/render/mask_sums.hpp"
 #include "umbrage/shadow/light_samples.hpp"
 #include "umbrage/shadow/phase_clock.hpp"
 
@@ -26,7 +26,7 @@ SampleBlock sampleBlock(const shadow::LightSample& sample, const Vec3& eye, std:
     block.ball = Vec4f(Vec3f(sample.ball->centre - eye), static_cast<float>(sample.ball->radius));
     block.point = Vec4f(Vec3f(std::get<scene::PointLight>(sample.light.shape).position - eye), 0.0f);
   }
-  block.point.w = static_cast<float>(halfOf(number));
+  block.point.w = static_cast<float>(shadow::halfOf(number));
   return block;
 }
 

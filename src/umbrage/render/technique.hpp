@@ -37,6 +37,7 @@ class GlTechnique : public shadow::Technique {
                                                                 const VolumeOptions& options = {});
 
 /// The same where casters let light through: what they take from it is summed up instead of counted (TintedPasses), and veils are seen through.
+/// With traits that are `soft`, lights with an extent are the mean of that from points of theirs (SoftSums).
 /// `counting`: zPass or zFail. Shading and pictures have all surfaces of a pixel; Frame::silhouettes and Frame::extrusion change nothing.
 /// Source: B. Kim, K. Kim and G. Turk, real-time shadows of transparent casters using shadow volumes, 2008.
 [[nodiscard]] std::unique_ptr<GlTechnique> makeTintedTechnique(const shadow::Traits& traits, Counting counting,

@@ -4,12 +4,18 @@ layout(std140, binding = 0) uniform Tinted {
   vec4 eyeHigh;      // the eye in two floats a component, so that position - eye is exact near the eye
   vec4 eyeLow;
   vec4 scale;        // one step of a filter; the distance below which surfaces count as one
-  int firstLayer;    // of the two that are asked about; below 0: the opaque surface is
   int litLayers;     // so many veils of each pixel are lit by themselves
   int hasVeils;
   int width;         // of the picture
   int pixelCount;    // tints of veils come after those of the opaque surfaces
   int light;         // which
+  int hasSums;       // else nothing takes anything from the light but what the stencil counts
+  int unused;
+  int unused2;
+  int atEyeOpaque;   // where the sums of veils start
+  int atEyeRed;
+  int atEyeGreen;
+  int atEyeBlue;
 };
 layout(std140, binding = 1) uniform Shading {
   vec4 rayCorner;   // the ray through window coordinates (x, y): rayCorner + x * rayX + y * rayY, relative to the eye

@@ -3,14 +3,16 @@
 #include <umbrage_shaders/ambient_frag.hpp>
 #include <umbrage_shaders/screen_vert.hpp>
 #include <umbrage_shaders/tinted_encode_frag.hpp>
-#include <umbrage_shaders/tinted_layers_frag.hpp>
 #include <umbrage_shaders/tinted_light_frag.hpp>
 #include <umbrage_shaders/tinted_reach_frag.hpp>
+#include <umbrage_shaders/tinted_reach_veils_frag.hpp>
 #include <umbrage_shaders/tinted_receivers_frag.hpp>
 #include <umbrage_shaders/tinted_tiles_frag.hpp>
+#include <umbrage_shaders/tinted_veiled_frag.hpp>
 #include <umbrage_shaders/tinted_volume_frag.hpp>
 #include <umbrage_shaders/tinted_volume_layers_frag.hpp>
 #include <umbrage_shaders/tinted_volume_vert.hpp>
+#include <umbrage_shaders/volume_frag.hpp>
 
 #include <bit>
 
@@ -22,7 +24,9 @@ namespace {
 
 constexpr std::size_t kTintBytes = 8;       // as the shaders have it
 constexpr std::size_t kVeilLightBytes = 16;  // likewise
-constexpr int kLayersAtOnce = 2;             // likewise
+constexpr std::size_t kVeilSumBytes = 16;    // likewise
+// Of the stencil: the highest bit marks where something is to be summed up, the others count.
+constexpr std::uint8_t kMark = 0x80, kCountBits = 0x7f;
 
 /// A surface as the shaders know it, as std430 lays it out.
 struct Face {
@@ -89,10 +93,10 @@ std::array<std::array<float, 4>, TintTargets::kPairs> partsOf(const TintWeight& 
 
 struct TintedPasses::Programs {
   gl::Program receivers{shaders::kScreenVert, shaders::kTintedReceiversFrag},
-      layers{shaders::kScreenVert, shaders::kTintedLayersFrag}, tiles{shaders::kScreenVert, shaders::kTintedTilesFrag},
-      volume{shaders::kTintedVolumeVert, shaders::kTintedVolumeFrag},
+      veiled{shaders::kScreenVert, shaders::kTintedVeiledFrag}, tiles{shaders::kScreenVert, shaders::kTintedTilesFrag},
+      volume{shaders::kTintedVolumeVert, shaders::kTintedVolumeFrag}, volumeCount{shaders::kTintedVolumeVert, shaders::kVolumeFrag},
       volumeLayers{shaders::kTintedVolumeVert, shaders::kTintedVolumeLayersFrag},
-      reach{shaders::kScreenVert, shaders::kTintedReachFrag}, ambient{shaders::kScreenVert, shaders::kAmbientFrag},
+      reach{shaders::kScreenVert, shaders::kTintedReachFrag}, reachVeils{shaders::kScreenVert, shaders::kTintedReachVeilsFrag}, ambient{shaders::kScreenVert, shaders::kAmbientFrag},
       light{shaders::kScreenVert, shaders::kTintedLightFrag}, encode{shaders::kScreenVert, shaders::kTintedEncodeFrag};
 };
 
@@ -104,9 +108,6 @@ Result<std::unique_ptr<TintedPasses>> TintedPasses::make(const shadow::Geometry&
   const std::vector<Face> faces = facesOf(geometry);
   if (auto done = setStorage(passes->faces_, std::as_bytes(std::span(faces)), "triangles"); !done)
     return tl::unexpected(done.error());
-  for (std::int32_t i = 0; i < 3; ++i)
-    if (auto done = passes->counted_[static_cast<std::size_t>(i)].setOne(std::array{i, 0, 0, 0}); !done)
-      return tl::unexpected(done.error());
   return passes;
 }
 
@@ -120,10 +121,11 @@ Result<void> TintedPasses::setMaterials(std::span<const scene::Material> materia
   return passing_.setAll(passing);
 }
 
-Result<void> TintedPasses::setBlock(const TintedFrame& frame, int firstLayer, int light) {
+Result<void> TintedPasses::setBlock(const TintedFrame& frame, int light) {
   TintedBlock block = frame.block;
-  block.firstLayer = firstLayer;
   block.light = light;
+  block.hasSums = !byStencil_ || hasTinted_ ? 1 : 0;
+  block.atEye = atEye_;
   return block_.setOne(block);
 }
 
@@ -133,14 +135,18 @@ Result<void> TintedPasses::setLight(const TintedFrame& frame, const TintedLight&
   if (kTintBytes * surfaces > gl::findQuirks().maxStorageBytes)
     return fail(ErrorCode::device, "the picture shows more surfaces than a buffer of this driver holds tints for");
   for (const auto& done : {view_.setOne(light.view), shading_.setOne(light.shading),
-                           bits_.setAll(packLightBits(facing, side)), tints_.reserve(kTintBytes * surfaces)})
+                           bits_.setAll(packLightBits(facing, side)), tints_.reserve(kTintBytes * surfaces),
+                           veilSums_.reserve(frame.lightsVeils() ? kVeilSumBytes * frame.veils.count() : 0)})
     if (!done) return done;
+  for (const Counted counted : kAllCounted)
+    if (auto done = counted_[counted].setOne(std::array{static_cast<std::int32_t>(counted), frame.block.litLayers, frame.block.width, 0}); !done)
+      return done;
   return {};
 }
 
 Result<image::Image<Vec2f>> TintedPasses::receivers(const TintedFrame& frame) {
   const int columns = tilesFor(frame.target.width()), rows = tilesFor(frame.target.height());
-  if (auto done = setBlock(frame, -1, 0); !done) return tl::unexpected(done.error());
+  if (auto done = setBlock(frame, 0); !done) return tl::unexpected(done.error());
   {
     gl::PassState state;
     state.viewport = {0, 0, columns, rows};
@@ -170,25 +176,42 @@ Result<void> TintedPasses::setVolume(const TintedVolume& volume) {
   passSides_ = volume.passSides, passCaps_ = volume.passCaps;
   failSides_ = volume.failSides, failCaps_ = volume.failCaps;
   atEye_ = volume.atEye;
+  byStencil_ = volume.fitsStencil;
+  hasTinted_ = volume.hasTinted();
   for (const auto& done : {setStorage(pieces_, std::as_bytes(std::span(volume.pieces)), "sides of shadow volumes"),
                            farPoints_.setAll(volume.farPoints), setPatterns(volume.pieces.size())})
     if (!done) return done;
   return {};
 }
 
-// Where there is something to be summed up, by a 1 in the stencil.
-void TintedPasses::mark(const TintedFrame& frame, const gl::Rect& area, bool layers) {
+// The sums start from what is there at the eye.
+void TintedPasses::begin(const TintedFrame& frame, const TintedLight& light) {
+  gl::PassState state = screenState(frame);
+  TintWeight start = atEye_;
+  if (byStencil_) start.opaque = 0;
+  if (!byStencil_ || hasTinted_) {
+    state.colourWrite = true;
+    state.colourTargets = static_cast<int>(TintTargets::kPairs);
+    state.scissor = light.litArea;
+    gl::Pass pass(frame.scope, frame.target.tints().opaque, state);
+    const auto parts = partsOf(start);
+    for (int i = 0; i < state.colourTargets; ++i) pass.clearColour(parts[static_cast<std::size_t>(i)], i);
+  }
+  gl::Pass pass(frame.scope, frame.target.stencilTarget(), screenState(frame));
+  pass.clearStencil(byStencil_ ? static_cast<std::uint8_t>(atEye_.opaque & kCountBits) : 0);
+}
+
+// Where a surface may be lit: there alone anything is summed up and written.
+void TintedPasses::mark(const TintedFrame& frame, const TintedLight& light, bool veils) {
   gl::PassState state = screenState(frame);
   const gl::StencilFace write{.pass = gl::StencilOp::replace};
-  state.stencil = {.test = true, .reference = 1, .front = write, .back = write};
-  state.scissor = area;
-  state.colourWrite = layers;
-  gl::Pass pass(frame.scope, layers ? frame.target.tints().depthsTarget : frame.target.stencilTarget(), state);
-  pass.clearStencil(0);
-  pass.use(layers ? programs_->layers : programs_->receivers);
+  state.stencil = {.test = true, .reference = kMark, .writeMask = kMark, .front = write, .back = write};
+  state.scissor = light.litArea;
+  gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
+  pass.use(veils ? programs_->veiled : programs_->receivers);
   pass.uniforms(0, block_);
   pass.storage(1, bits_);
-  if (layers) {
+  if (veils) {
     pass.storage(2, frame.veils.pixels());
     pass.storage(3, frame.veils.veils());
   }
@@ -196,56 +219,108 @@ void TintedPasses::mark(const TintedFrame& frame, const gl::Rect& area, bool lay
   pass.draw(screen_, 3);
 }
 
-void TintedPasses::count(const TintedFrame& frame, const gl::Rect& area, bool layers, Counted counted) {
-  const IndexRange& sides = counted == behind ? failSides_ : passSides_;
-  const IndexRange& caps = counted == before ? passCaps_ : failCaps_;
-  const bool hasSides = counted != everywhere && sides.count > 0, hasCaps = counted != behind && caps.count > 0;
-  if (!hasSides && !hasCaps) return;
-  const TintTargets& tints = frame.target.tints();
-  gl::PassState state = frame.placement;
-  // What is behind the opaque surface is before no veil; what is not may still be behind one.
-  const bool isCompared = counted == before || (counted == behind && !layers);
-  const auto compare = counted == before ? gl::Compare::greater : gl::Compare::lessOrEqual;
-  state.depth = {.test = isCompared, .pass = compare, .write = false, .clamp = true};
-  state.stencil = {.test = true, .compare = gl::Compare::equal, .reference = 1};
-  state.blend = gl::Blend::add;
-  state.colourWrite = true;
-  state.colourTargets = layers ? gl::kColourTargets : static_cast<int>(TintTargets::kPairs);
-  state.scissor = area;
-  gl::Pass pass(frame.scope, layers ? tints.layers : tints.opaque, state);
-  pass.use(layers ? programs_->volumeLayers : programs_->volume);
+void TintedPasses::drawPieces(gl::Pass& pass, const TintedFrame& frame, const IndexRange& sides, const IndexRange& caps) {
   pass.uniforms(0, view_);
   pass.storage(0, frame.scene.positions());
   pass.storage(1, farPoints_);
   pass.storage(2, pieces_);
-  if (layers) {
-    pass.uniforms(1, counted_[counted]);
-    pass.texture(0, tints.depths);
-  }
-  if (hasSides) pass.drawIndexed(quadVertices_, 6 * sides.first, 6 * sides.count);
-  if (hasCaps) pass.drawIndexed(triangleVertices_, 3 * caps.first, 3 * caps.count);
+  if (sides.count > 0) pass.drawIndexed(quadVertices_, 6 * sides.first, 6 * sides.count);
+  if (caps.count > 0) pass.drawIndexed(triangleVertices_, 3 * caps.first, 3 * caps.count);
 }
 
-void TintedPasses::sum(const TintedFrame& frame, const TintedLight& light, bool layers) {
+// In the lower bits, as all stencil volumes are. What counts behind is told by its turned comparison.
+void TintedPasses::countOpaque(const TintedFrame& frame, const gl::Rect& area, Counted counted) {
+  const IndexRange sides = counted == everywhere ? IndexRange{} : (counted == behind ? failSides_ : passSides_).ofOpaque();
+  const IndexRange caps = counted == behind ? IndexRange{} : (counted == before ? passCaps_ : failCaps_).ofOpaque();
+  if (sides.count + caps.count == 0) return;
+  const gl::StencilFace up{.pass = gl::StencilOp::increment}, down{.pass = gl::StencilOp::decrement};
+  gl::PassState state = frame.placement;
+  const auto compare = counted == before ? gl::Compare::greater : gl::Compare::lessOrEqual;
+  state.depth = {.test = counted != everywhere, .pass = compare, .write = false, .clamp = true};
+  state.stencil = {.test = true,
+                   .compare = gl::Compare::equal,
+                   .reference = kMark,
+                   .readMask = kMark,
+                   .writeMask = kCountBits,
+                   .front = counted == before ? up : down,
+                   .back = counted == before ? down : up};
+  state.scissor = area;
+  gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
+  pass.use(programs_->volumeCount);
+  drawPieces(pass, frame, sides, caps);
+}
+
+void TintedPasses::addTinted(const TintedFrame& frame, const gl::Rect& area, Counted counted) {
+  const auto range = [&](const PieceRange& pieces) { return byStencil_ ? pieces.ofTinted() : pieces.all(); };
+  const IndexRange sides = counted == everywhere ? IndexRange{} : range(counted == behind ? failSides_ : passSides_);
+  const IndexRange caps = counted == behind ? IndexRange{} : range(counted == before ? passCaps_ : failCaps_);
+  if (sides.count + caps.count == 0) return;
+  gl::PassState state = frame.placement;
+  const auto compare = counted == before ? gl::Compare::greater : gl::Compare::lessOrEqual;
+  state.depth = {.test = counted != everywhere, .pass = compare, .write = false, .clamp = true};
+  // What opaque casters have darkened already stays dark.
+  state.stencil = {.test = true, .compare = gl::Compare::equal, .reference = kMark};
+  state.blend = gl::Blend::add;
+  state.colourWrite = true;
+  state.colourTargets = static_cast<int>(TintTargets::kPairs);
+  state.scissor = area;
+  gl::Pass pass(frame.scope, frame.target.tints().opaque, state);
+  pass.use(programs_->volume);
+  drawPieces(pass, frame, sides, caps);
+}
+
+void TintedPasses::addToVeils(const TintedFrame& frame, const gl::Rect& area, Counted counted) {
+  const IndexRange sides = counted == everywhere ? IndexRange{} : (counted == behind ? failSides_ : passSides_).all();
+  const IndexRange caps = counted == behind ? IndexRange{} : (counted == before ? passCaps_ : failCaps_).all();
+  if (sides.count + caps.count == 0) return;
+  gl::PassState state = frame.placement;
+  // What is behind the opaque surface is before no veil.
+  state.depth = {.test = counted == before, .pass = gl::Compare::greater, .write = false, .clamp = true};
+  state.stencil = {.test = true, .compare = gl::Compare::equal, .reference = kMark};
+  state.scissor = area;
+  gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
+  pass.use(programs_->volumeLayers);
+  pass.uniforms(1, counted_[counted]);
+  pass.storage(3, frame.veils.pixels());
+  pass.storage(4, frame.veils.veils());
+  pass.storage(5, veilSums_);
+  drawPieces(pass, frame, sides, caps);
+  pass.publishStorage();
+}
+
+void TintedPasses::sum(const TintedFrame& frame, const TintedLight& light) {
   const gl::Rect area = gl::intersect(light.volumeArea, light.litArea);
-  {
-    gl::PassState state = screenState(frame);
-    state.colourWrite = true;
-    state.colourTargets = layers ? gl::kColourTargets : static_cast<int>(TintTargets::kPairs);
-    state.scissor = light.litArea;
-    gl::Pass pass(frame.scope, layers ? frame.target.tints().layers : frame.target.tints().opaque, state);
-    const auto start = partsOf(atEye_);
-    for (int i = 0; i < state.colourTargets; ++i)
-      pass.clearColour(start[static_cast<std::size_t>(i) % TintTargets::kPairs], i);
-  }
+  begin(frame, light);
+  if (light.litArea.empty()) return;
+  mark(frame, light, false);
   if (area.empty()) return;
-  mark(frame, area, layers);
-  for (const Counted counted : {before, behind, everywhere}) count(frame, area, layers, counted);
+  if (byStencil_)
+    for (const Counted counted : kAllCounted) countOpaque(frame, area, counted);
+  for (const Counted counted : kAllCounted) addTinted(frame, area, counted);
 }
 
-void TintedPasses::writeTints(const TintedFrame& frame, bool layers) {
-  gl::Pass pass(frame.scope, frame.target.stencilTarget(), screenState(frame));
-  pass.use(programs_->reach);
+void TintedPasses::sumVeils(const TintedFrame& frame, const TintedLight& light) {
+  {
+    gl::Pass pass(frame.scope, frame.target.stencilTarget(), screenState(frame));
+    pass.clearStencil(0);
+  }
+  if (light.litArea.empty()) return;
+  mark(frame, light, true);
+  if (frame.block.litLayers == 0) return;
+  veilSums_.clear();
+  const gl::Rect area = gl::intersect(light.volumeArea, light.litArea);
+  if (area.empty()) return;
+  for (const Counted counted : kAllCounted) addToVeils(frame, area, counted);
+}
+
+// What opaque casters have darkened is not marked alone any more, and stays dark.
+void TintedPasses::writeTints(const TintedFrame& frame, const TintedLight& light, bool veils) {
+  if (light.litArea.empty()) return;
+  gl::PassState state = screenState(frame);
+  state.stencil = {.test = true, .compare = gl::Compare::equal, .reference = kMark};
+  state.scissor = light.litArea;
+  gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
+  pass.use(veils ? programs_->reachVeils : programs_->reach);
   pass.uniforms(0, block_);
   pass.uniforms(1, shading_);
   pass.storage(0, faces_);
@@ -253,10 +328,10 @@ void TintedPasses::writeTints(const TintedFrame& frame, bool layers) {
   pass.storage(2, frame.veils.pixels());
   pass.storage(3, frame.veils.veils());
   pass.storage(4, tints_);
+  pass.storage(5, veilSums_);
   pass.texture(0, frame.target.ids());
   const auto& sums = frame.target.tints().sums;
-  for (unsigned i = 0; i < sums.size(); ++i)
-    pass.texture(1 + i, sums[layers ? i : i % TintTargets::kPairs]);
+  for (unsigned i = 0; i < sums.size(); ++i) pass.texture(1 + i, sums[i]);
   pass.draw(screen_, 3);
   pass.publishStorage();
 }
@@ -267,19 +342,17 @@ Result<void> TintedPasses::reach(const TintedFrame& frame, const TintedLight& li
     gl::finish();
     ended(phase);
   };
-  const auto layer = [&](int first) -> Result<void> {
-    const bool layers = first >= 0;
-    if (auto done = setBlock(frame, first, light.number); !done) return done;
-    sum(frame, light, layers);
-    end(layers ? "layers" : "volumes");
-    writeTints(frame, layers);
-    end("lit");
-    return {};
-  };
-  if (auto done = layer(-1); !done) return done;
-  const int layers = static_cast<int>(frame.layers());
-  for (int first = 0; first < layers; first += kLayersAtOnce)
-    if (auto done = layer(first); !done) return done;
+  tints_.clear();
+  if (auto done = setBlock(frame, light.number); !done) return done;
+  sum(frame, light);
+  end("volumes");
+  writeTints(frame, light, false);
+  end("lit");
+  if (frame.veils.count() == 0) return {};
+  sumVeils(frame, light);
+  end("volumes at veils");
+  writeTints(frame, light, true);
+  end("lit");
   return {};
 }
 
@@ -299,7 +372,7 @@ Result<void> TintedPasses::beginPicture(const TintedFrame& frame, const gl::Buff
 }
 
 Result<void> TintedPasses::addLight(const TintedFrame& frame, int light) {
-  if (auto done = setBlock(frame, -1, light); !done) return done;
+  if (auto done = setBlock(frame, light); !done) return done;
   gl::PassState state = screenState(frame);
   state.colourWrite = true;
   state.blend = gl::Blend::add;
@@ -320,7 +393,7 @@ Result<void> TintedPasses::addLight(const TintedFrame& frame, int light) {
 }
 
 Result<void> TintedPasses::endPicture(const TintedFrame& frame, const gl::Buffer& shading, std::size_t lights) {
-  if (auto done = setBlock(frame, -1, static_cast<int>(lights)); !done) return done;
+  if (auto done = setBlock(frame, static_cast<int>(lights)); !done) return done;
   gl::PassState state = screenState(frame);
   state.colourWrite = true;
   gl::Pass pass(frame.scope, frame.target.pictureTarget(), state);

@@ -1,15 +1,22 @@
 #version 450 core
-// What of the light reaches the surfaces that a pixel shows: the opaque one, or two of its veils. Nothing is drawn; tints are written.
+// What of the light reaches the opaque surface that a pixel shows. Nothing is drawn; tints are written.
+layout(early_fragment_tests) in;  // the stencil decides before anything is written
 layout(std140, binding = 0) uniform Tinted {
   vec4 eyeHigh;      // the eye in two floats a component, so that position - eye is exact near the eye
   vec4 eyeLow;
   vec4 scale;        // one step of a filter; the distance below which surfaces count as one
-  int firstLayer;    // of the two that are asked about; below 0: the opaque surface is
   int litLayers;     // so many veils of each pixel are lit by themselves
   int hasVeils;
   int width;         // of the picture
   int pixelCount;    // tints of veils come after those of the opaque surfaces
   int light;         // which
+  int hasSums;       // else nothing takes anything from the light but what the stencil counts
+  int unused;
+  int unused2;
+  int atEyeOpaque;   // where the sums of veils start
+  int atEyeRed;
+  int atEyeGreen;
+  int atEyeBlue;
 };
 layout(std140, binding = 1) uniform Shading {
   vec4 rayCorner;   // the ray through window coordinates (x, y): rayCorner + x * rayX + y * rayY, relative to the eye
@@ -22,15 +29,11 @@ layout(std140, binding = 1) uniform Shading {
   vec4 background;  // sRGB
 };
 layout(binding = 0) uniform usampler2D ids;
-// What lies between a surface and the light, in parts as tinted_volume.frag has them: of the opaque surface or the first veil, and of the second.
+// What lies between the opaque surface and the light, in parts as tinted_volume.frag has them.
 layout(binding = 1) uniform sampler2D opaqueRed;
 layout(binding = 2) uniform sampler2D greenBlue;
 layout(binding = 3) uniform sampler2D lowRedGreen;
 layout(binding = 4) uniform sampler2D lowBlue;
-layout(binding = 5) uniform sampler2D opaqueRed2;
-layout(binding = 6) uniform sampler2D greenBlue2;
-layout(binding = 7) uniform sampler2D lowRedGreen2;
-layout(binding = 8) uniform sampler2D lowBlue2;
 struct Face {
   vec4 normal;   // unit; material as the bits of w
   vec4 corner;   // one of its corners
@@ -42,7 +45,6 @@ layout(std430, binding = 2) readonly buffer Pixels { uvec2 pixel[]; };  // where
 layout(std430, binding = 3) readonly buffer Veils { uvec2 veil[]; };    // triangle, with bit 31 where it shows its front; bits of its depth
 layout(std430, binding = 4) writeonly buffer Tints { uvec2 tints[]; };  // 16 bits a channel
 const uint kNone = 0xffffffffu, kId = 0x7fffffffu;
-const uvec2 kFull = uvec2(0xffffffffu, 0xffffu);
 
 uint bitsOf(uint id) { return lightBits[id >> 3] >> (4u * (id & 7u)); }
 bool facesLight(uint id) { return (bitsOf(id) & 1u) != 0u; }
@@ -72,15 +74,9 @@ bool liesUpon(uint a, uint b, vec3 ray) {
   return abs((depthOf(b, ray) - depthOf(a, ray)) * dot(ray, face[a].normal.xyz)) <= scale.y;
 }
 
-ivec4 sumAt(ivec2 at, int which) {
-  vec2 a, b, c, d;
-  if (which == 0) {
-    a = texelFetch(opaqueRed, at, 0).xy, b = texelFetch(greenBlue, at, 0).xy;
-    c = texelFetch(lowRedGreen, at, 0).xy, d = texelFetch(lowBlue, at, 0).xy;
-  } else {
-    a = texelFetch(opaqueRed2, at, 0).xy, b = texelFetch(greenBlue2, at, 0).xy;
-    c = texelFetch(lowRedGreen2, at, 0).xy, d = texelFetch(lowBlue2, at, 0).xy;
-  }
+ivec4 sumAt(ivec2 at) {
+  vec2 a = texelFetch(opaqueRed, at, 0).xy, b = texelFetch(greenBlue, at, 0).xy;
+  vec2 c = texelFetch(lowRedGreen, at, 0).xy, d = texelFetch(lowBlue, at, 0).xy;
   return ivec4(int(a.x), (ivec3(int(a.y), int(b.x), int(b.y)) << 10) + ivec3(int(c.x), int(c.y), int(d.x)));
 }
 
@@ -97,32 +93,11 @@ uvec2 reaching(uint id, ivec4 sum, uvec2 own, uint before, ivec3 crossed, vec3 r
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec3 ray = rayCorner.xyz + gl_FragCoord.x * rayX.xyz + gl_FragCoord.y * rayY.xyz;
+  uint id = texelFetch(ids, at, 0).r;
+  if (id == kNone || !isLit(id, ray)) return;
   int place = at.y * width + at.x;
   uvec2 own = hasVeils != 0 ? pixel[place] : uvec2(0u);
-  uint lit = uint(litLayers), count = own.y;
   ivec3 crossed = ivec3(0);
-  if (firstLayer < 0) {
-    for (uint k = 0u; k < count; ++k) {
-      uint seen = veil[own.x + k].x;
-      if (lit == 0u) tints[pixelCount + own.x + k] = isLit(seen & kId, ray) ? kFull : uvec2(0u);
-      crossed += crossing(seen);
-    }
-    uint id = texelFetch(ids, at, 0).r;
-    bool is = id != kNone && isLit(id, ray);
-    tints[place] = is ? reaching(id, sumAt(at, 0), own, count, crossed, ray) : uvec2(0u);
-    return;
-  }
-  uint first = uint(firstLayer), end = min(first + 2u, min(count, lit));
-  if (first >= end) return;
-  uvec2 last = uvec2(0u);
-  for (uint k = 0u; k < end; ++k) {
-    uint seen = veil[own.x + k].x;
-    if (k >= first) {
-      last = isLit(seen & kId, ray) ? reaching(seen & kId, sumAt(at, int(k - first)), own, k, crossed, ray) : uvec2(0u);
-      tints[pixelCount + own.x + k] = last;
-    }
-    crossed += crossing(seen);
-  }
-  if (end < lit) return;
-  for (uint k = end; k < count; ++k) tints[pixelCount + own.x + k] = last;
+  for (uint k = 0u; k < own.y; ++k) crossed += crossing(veil[own.x + k].x);
+  tints[place] = reaching(id, hasSums != 0 ? sumAt(at) : ivec4(0), own, own.y, crossed, ray);
 }

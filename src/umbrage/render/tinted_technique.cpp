@@ -5,6 +5,7 @@
 
 #include "umbrage/gl/read_back.hpp"
 #include "umbrage/render/run_passes.hpp"
+#include "umbrage/render/soft_sums.hpp"
 #include "umbrage/render/technique.hpp"
 #include "umbrage/render/tinted_passes.hpp"
 #include "umbrage/shadow/facing.hpp"
@@ -70,6 +71,14 @@ struct VeilOrder {
   }
 };
 
+void countPenumbra(const shadow::LightMask& mask, shadow::SoftStats& stats) {
+  for (std::size_t i = 0; i < mask.covered.size(); ++i) {
+    const shadow::Tint& tint = mask.tint.pixels()[i];
+    if (mask.covered.pixels()[i] == 0 || tint == shadow::kFullTint) continue;
+    ++(tint == shadow::Tint{} ? stats.umbra : stats.penumbra);
+  }
+}
+
 class TintedTechnique final : public GlTechnique {
  public:
   TintedTechnique(const shadow::Traits& traits, Counting counting, const VolumeOptions& options,
@@ -114,6 +123,7 @@ class TintedTechnique final : public GlTechnique {
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
       if (auto done = light(*seen, frame, i, shading.stats, ended); !done) return tl::unexpected(done.error());
       shading.masks.push_back(readMask(order, shading));
+      if (auto& soft = shading.stats.lights.back().soft) countPenumbra(shading.masks.back(), *soft);
       clock.end("readback");
     }
     return shading;
@@ -153,6 +163,7 @@ class TintedTechnique final : public GlTechnique {
     std::optional<GpuFrame> frame;
     std::unique_ptr<TintedPasses> passes;
     VeilLists veils;
+    SoftSums soft;
     Programs programs;
     gl::Buffer view, shading;
     std::vector<GpuLight> none;
@@ -213,8 +224,6 @@ class TintedTechnique final : public GlTechnique {
       const VeilLists::Input veils{*own_->scene, target, own_->view, own_->shading, seen.placement};
       if (auto done = own_->veils.find(scope, veils); !done) return tl::unexpected(done.error());
       seen.block.hasVeils = own_->veils.count() > 0 ? 1 : 0;
-      if (seen.layers() > 0)
-        if (auto done = target.needLayers(); !done) return tl::unexpected(done.error());
       if (ended) {
         gl::finish();
         ended("veils");
@@ -232,10 +241,47 @@ class TintedTechnique final : public GlTechnique {
 
   Result<void> light(const TintedFrame& seen, const shadow::Frame& frame, std::size_t number, shadow::FrameStats& stats,
                      const PhaseEnd& ended) {
+    const scene::Light& light = frame.lights[number];
+    shadow::LightStats& told = stats.lights.emplace_back();
+    if (traits_.soft && scene::isArea(light)) return softLight(seen, frame, number, told, ended);
+    return hardLight(seen, frame, number, light, told, ended);
+  }
+
+  // The mean of the hard light of many points; sixteen at a time, as on the processor.
+  Result<void> softLight(const TintedFrame& seen, const shadow::Frame& frame, std::size_t number, shadow::LightStats& told,
+                         const PhaseEnd& ended) {
+    constexpr std::size_t kPart = 16;
+    const scene::Light& light = frame.lights[number];
+    Box3 room = geometry_->surfaces.bounds;
+    if (!room.empty()) room.min += geometry_->surfaces.origin, room.max += geometry_->surfaces.origin;
+    const std::size_t most = std::max<std::size_t>(1, frame.soft.samples);
+    SoftSums& sums = own_->soft;
+    double error = std::numeric_limits<double>::infinity();
+    for (sums.begin(); sums.samples() < most;) {
+      for (const auto& sample : shadow::lightSamples(light, sums.samples(), std::min(kPart, most - sums.samples()), room)) {
+        shadow::LightStats one;
+        if (auto done = hardLight(seen, frame, number, sample.light, one, ended); !done) return done;
+        if (sums.samples() == 0) told = std::move(one);
+        if (auto done = sums.add(seen, *own_->passes, own_->shading, sample, view_.eye); !done) return done;
+      }
+      const auto found = sums.error(seen);
+      if (!found) return tl::unexpected(found.error());
+      error = *found;
+      if (ended) ended("mean");
+      const bool goOn = !frame.soft.progress || frame.soft.progress({number, sums.samples(), error});
+      if (!goOn || (sums.samples() >= 2 * kPart && error <= frame.soft.enough)) break;
+    }
+    told.reason = "the mean of " + std::to_string(sums.samples()) + " points of the light; each: " + told.reason;
+    told.soft = shadow::SoftStats{sums.samples(), error};
+    if (auto done = sums.mean(seen, *own_->passes); !done) return done;
+    return own_->passes->setShading(withLight(shadingBlock(frame.camera), frame.camera, light));
+  }
+
+  Result<void> hardLight(const TintedFrame& seen, const shadow::Frame& frame, std::size_t number, const scene::Light& light,
+                         shadow::LightStats& told, const PhaseEnd& ended) {
     const auto end = [&](const char* phase) {
       if (ended) ended(phase);
     };
-    const scene::Light& light = frame.lights[number];
     const scene::Surfaces& surfaces = geometry_->surfaces;
     const Vec4 homogeneous = scene::homogeneous(light, surfaces.origin);
     const Vec3 eye = view_.eye - surfaces.origin;
@@ -259,7 +305,6 @@ class TintedTechnique final : public GlTechnique {
       tiles.emplace(view_, std::move(*depths), frame.camera.width, frame.camera.height);
       end("tiles");
     }
-    shadow::LightStats& told = stats.lights.emplace_back();
     const TintedVolume volume = prepareTinted(*geometry_,
                                               {.finder = *finder_,
                                                .light = homogeneous,

@@ -1,11 +1,14 @@
 #include "umbrage/render/tinted_volume.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <utility>
 
 #include "umbrage/base/check.hpp"
 #include "umbrage/math/predicates.hpp"
 #include "umbrage/render/detail/volume_shape.hpp"
 #include "umbrage/shadow/hidden_casters.hpp"
+#include "umbrage/shadow/layering.hpp"
 #include "umbrage/shadow/tinted_silhouette.hpp"
 
 namespace umbrage::render {
@@ -75,8 +78,8 @@ std::uint32_t nearVertex(std::uint32_t i) { return 2 * i; }
 std::uint32_t farVertex(std::uint32_t i) { return 2 * i + 1; }
 
 // A cap that runs a -> b, counter-clockwise as the light sees it, is continued by a side that runs b -> a.
-TintedPiece sideOf(const shadow::SilhouetteEdge& edge, const TintWeight& weight) {
-  return {{nearVertex(edge.b), nearVertex(edge.a), farVertex(edge.a), farVertex(edge.b)}, weight};
+TintedPiece sideOf(std::uint32_t a, std::uint32_t b, const TintWeight& weight) {
+  return {{nearVertex(b), nearVertex(a), farVertex(a), farVertex(b)}, weight};
 }
 
 TintedPiece nearCap(const mesh::Triangle& t, const TintWeight& weight) {
@@ -87,51 +90,84 @@ TintedPiece farCap(const mesh::Triangle& t, const TintWeight& weight) {
   return {{farVertex(t[0]), farVertex(t[2]), farVertex(t[1]), farVertex(t[0])}, weight};
 }
 
+/// Collects what is counted alike.
+class Pieces {
+ public:
+  /// `sign`: -1 for what counts behind.
+  explicit Pieces(int sign) : sign_(sign) {}
+
+  void side(const shadow::SilhouetteEdge& edge, const TintWeight& weight) {
+    const auto [a, b] = weight.opaque < 0 ? std::pair(edge.b, edge.a) : std::pair(edge.a, edge.b);
+    for (int i = 0; i < std::abs(weight.opaque); ++i) opaque_.push_back(sideOf(a, b, {sign_, {}}));
+    if (weight.filter != shadow::FilterSum{}) tinted_.push_back(sideOf(edge.a, edge.b, times(sign_, {0, weight.filter})));
+  }
+  /// `make`: nearCap or farCap; `side`: of the triangle.
+  template <class Make>
+  void cap(mesh::Triangle corners, int side, const TintWeight& surface, const Make& make) {
+    if (surface.opaque != 0) {
+      if (side < 0) std::swap(corners[1], corners[2]);
+      opaque_.push_back(make(corners, {sign_, {}}));
+    } else {
+      tinted_.push_back(make(corners, times(sign_ * side, surface)));
+    }
+  }
+  [[nodiscard]] PieceRange appendTo(std::vector<TintedPiece>& all) const {
+    const PieceRange range{all.size(), opaque_.size(), tinted_.size()};
+    all.insert(all.end(), opaque_.begin(), opaque_.end());
+    all.insert(all.end(), tinted_.begin(), tinted_.end());
+    return range;
+  }
+
+ private:
+  int sign_;
+  std::vector<TintedPiece> opaque_, tinted_;
+};
+
 /// Writes the pieces, range after range.
 class Writer {
  public:
-  Writer(const Outline& outline, const VolumeShape& shape, const Components& byZFail, TintedVolume& out)
-      : outline_(outline), shape_(shape), byZFail_(byZFail), out_(out) {}
+  Writer(const Outline& outline, const VolumeShape& shape, const Components& byZFail)
+      : outline_(outline), shape_(shape), byZFail_(byZFail) {}
 
-  void passSides(shadow::LightStats& stats) {
-    write(out_.passSides, [&] {
-      forEachEdge([&](const shadow::SilhouetteEdge& edge, const TintWeight& weight) {
-        if (fails(edge.component)) return;
-        if (shape_.dropsParts() && !shape_.mayCount(edge.a, edge.b, edge.component))
-          ++stats.sidesBehind;
-        else
-          out_.pieces.push_back(sideOf(edge, weight));
-      });
+  [[nodiscard]] Pieces passSides(shadow::LightStats& stats) const {
+    Pieces pieces(1);
+    forEachEdge([&](const shadow::SilhouetteEdge& edge, const TintWeight& weight) {
+      if (fails(edge.component)) return;
+      if (shape_.dropsParts() && !shape_.mayCount(edge.a, edge.b, edge.component))
+        ++stats.sidesBehind;
+      else
+        pieces.side(edge, weight);
     });
+    return pieces;
   }
-  void passCaps() {
+  [[nodiscard]] Pieces passCaps() const {
     const shadow::CasterSet& casters = outline_.casters();
-    write(out_.passCaps, [&] {
-      for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
-        if (sideAt(t) != 0 && liesInPlane(casters.corner(t, 0), casters.corner(t, 1), casters.corner(t, 2), outline_.request.eye))
-          out_.pieces.push_back(nearCap(casters.triangles[t], times(sideAt(t), outline_.surfaceWeight(t))));
-    });
+    Pieces pieces(1);
+    for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
+      if (sideAt(t) != 0 &&
+          liesInPlane(casters.corner(t, 0), casters.corner(t, 1), casters.corner(t, 2), outline_.request.eye))
+        pieces.cap(casters.triangles[t], sideAt(t), outline_.surfaceWeight(t), nearCap);
+    return pieces;
   }
-  void failSides() {
-    write(out_.failSides, [&] {
-      forEachEdge([&](const shadow::SilhouetteEdge& edge, const TintWeight& weight) {
-        const bool isOnEye = byZFail_[edge.component] != 0 &&
-                             shadow::liesOnSide(outline_.casters(), edge, outline_.request.light, outline_.request.eye);
-        if (fails(edge.component) && !isOnEye) out_.pieces.push_back(sideOf(edge, times(-1, weight)));
-      });
+  [[nodiscard]] Pieces failSides() const {
+    Pieces pieces(-1);
+    forEachEdge([&](const shadow::SilhouetteEdge& edge, const TintWeight& weight) {
+      const bool isOnEye = byZFail_[edge.component] != 0 &&
+                           shadow::liesOnSide(outline_.casters(), edge, outline_.request.light, outline_.request.eye);
+      if (fails(edge.component) && !isOnEye) pieces.side(edge, weight);
     });
+    return pieces;
   }
-  void failCaps() {
+  [[nodiscard]] Pieces failCaps() const {
     const shadow::CasterSet& casters = outline_.casters();
-    write(out_.failCaps, [&] {
-      for (std::uint32_t t = 0; t < casters.triangles.size(); ++t) {
-        const std::uint32_t component = casters.componentOf[t];
-        if (sideAt(t) == 0 || !fails(component)) continue;
-        const TintWeight weight = times(-sideAt(t), outline_.surfaceWeight(t));
-        out_.pieces.push_back(nearCap(casters.triangles[t], weight));
-        if (!toOnePoint(component)) out_.pieces.push_back(farCap(casters.triangles[t], weight));
-      }
-    });
+    Pieces pieces(-1);
+    for (std::uint32_t t = 0; t < casters.triangles.size(); ++t) {
+      const std::uint32_t component = casters.componentOf[t];
+      if (sideAt(t) == 0 || !fails(component)) continue;
+      pieces.cap(casters.triangles[t], sideAt(t), outline_.surfaceWeight(t), nearCap);
+      if (!toOnePoint(component)) pieces.cap(casters.triangles[t], sideAt(t), outline_.surfaceWeight(t), farCap);
+    }
+    return pieces;
   }
 
  private:
@@ -143,12 +179,6 @@ class Writer {
     return outline_.request.light.w == 0.0 && (shape_.reach() == nullptr || shape_.reach()->isEndless(component));
   }
   template <class Fn>
-  void write(IndexRange& range, const Fn& fn) {
-    range.first = out_.pieces.size();
-    fn();
-    range.count = out_.pieces.size() - range.first;
-  }
-  template <class Fn>
   void forEachEdge(const Fn& fn) const {
     for (std::size_t e = 0; e < outline_.weights.size(); ++e) fn(outline_.silhouette.edges[e], outline_.weights[e]);
   }
@@ -156,8 +186,23 @@ class Writer {
   const Outline& outline_;
   const VolumeShape& shape_;
   const Components& byZFail_;
-  TintedVolume& out_;
 };
+
+// Whether what is opaque can be counted in so many bits.
+bool fitsStencil(const Outline& outline) {
+  const shadow::CasterSet& casters = outline.casters();
+  shadow::Silhouette opaque;
+  opaque.light = outline.silhouette.light;
+  opaque.side = outline.silhouette.side;
+  for (std::uint32_t t = 0; t < opaque.side.size(); ++t)
+    if (outline.geometry.filters.isVeil(casters.surfaceTriangle[t])) opaque.side[t] = 0;
+  for (std::size_t e = 0; e < outline.weights.size(); ++e) {
+    if (outline.weights[e].opaque == 0) continue;
+    opaque.edges.push_back(outline.silhouette.edges[e]);
+    opaque.edges.back().multiplicity = outline.weights[e].opaque;
+  }
+  return shadow::layeringBound(casters, opaque, kSharedStencil) <= kSharedStencil;
+}
 
 std::vector<Vec4f> farPointsOf(const Outline& outline, const VolumeShape& shape) {
   const shadow::CasterSet& casters = outline.casters();
@@ -200,6 +245,8 @@ TintedVolume prepareTinted(const shadow::Geometry& geometry, const VolumeRequest
   shape.endVolumes(request.options.finite ? shadow::sidesAtEye(casters, outline.silhouette, request.eye) : Components());
   dropUseless(outline, shape, stats);
   end("useless");
+  const bool fits = fitsStencil(outline);
+  end("layers");
   shadow::EyeCount atEye;
   if (zFail)
     atEye.byZFail = shadow::sidesAtEye(casters, outline.silhouette, request.eye);
@@ -209,13 +256,14 @@ TintedVolume prepareTinted(const shadow::Geometry& geometry, const VolumeRequest
   end("silhouette");
 
   TintedVolume out;
+  out.fitsStencil = fits;
   out.atEye = sumAtEye(outline, atEye);
   out.farPoints = farPointsOf(outline, shape);
-  Writer writer(outline, shape, atEye.byZFail, out);
-  writer.passSides(stats);
-  writer.passCaps();
-  writer.failSides();
-  writer.failCaps();
+  const Writer writer(outline, shape, atEye.byZFail);
+  out.passSides = writer.passSides(stats).appendTo(out.pieces);
+  out.passCaps = writer.passCaps().appendTo(out.pieces);
+  out.failSides = writer.failSides().appendTo(out.pieces);
+  out.failCaps = writer.failCaps().appendTo(out.pieces);
   if (!zFail) {
     stats.castersByZFail = atEye.byZFailCount;
     for (std::size_t c = 0; c < stats.choices.size(); ++c)
@@ -225,7 +273,7 @@ TintedVolume prepareTinted(const shadow::Geometry& geometry, const VolumeRequest
   stats.method = std::string("transparent, ") + name(request.counting);
   stats.eyeCount = atEye.count;
   if (shape.reach() != nullptr) stats.endlessCasters = shape.reach()->endlessCount();
-  stats.volumeTriangles = 2 * (out.passSides.count + out.failSides.count) + out.passCaps.count + out.failCaps.count;
+  stats.volumeTriangles = 2 * (out.passSides.all().count + out.failSides.all().count) + out.passCaps.all().count + out.failCaps.all().count;
   out.side = std::move(outline.silhouette.side);
   end("extrude");
   return out;

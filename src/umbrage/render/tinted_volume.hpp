@@ -17,20 +17,34 @@ struct TintWeight {
 
 /// A side or a cap on its way to the graphics card, as std430 lays it out. Corners are indices into doubled vertices (shadow::ShadowVolume); a side is the
 /// triangles of corners 0, 1, 2 and 0, 2, 3, a cap that of 0, 1, 2. Where it shows its front it adds `weight`, else it takes it away.
+/// It is either opaque, and then counts one, or tinted, and then counts no opaque surface.
 struct TintedPiece {
   std::array<std::uint32_t, 4> corners;
   TintWeight weight;
 };
 static_assert(sizeof(TintedPiece) == 32);
 
+/// Pieces that are counted alike, in TintedVolume::pieces: those of opaque casters first.
+struct PieceRange {
+  std::size_t first = 0, opaque = 0, tinted = 0;
+  [[nodiscard]] IndexRange all() const { return {first, opaque + tinted}; }
+  [[nodiscard]] IndexRange ofOpaque() const { return {first, opaque}; }
+  [[nodiscard]] IndexRange ofTinted() const { return {first + opaque, tinted}; }
+};
+
 /// What one light's shadow volumes are made of where casters let light through. Computed without OpenGL.
 struct TintedVolume {
   std::vector<TintedPiece> pieces;
-  /// In `pieces`: what counts before the surfaces that are seen, and what counts behind them, whose weights are negative already.
-  IndexRange passSides, passCaps, failSides, failCaps;
+  /// What counts before the surfaces that are seen, and what counts behind them, whose weights are negative already.
+  PieceRange passSides, passCaps, failSides, failCaps;
   std::vector<Vec4f> farPoints;    ///< shadow::farPoints
   std::vector<std::int8_t> side;   ///< per caster triangle: Silhouette::side; 0 where it has no part in the volumes
   TintWeight atEye;                ///< where the sums start
+  bool fitsStencil = false;        ///< no ray meets more opaque layers than 7 bits count
+
+  [[nodiscard]] bool hasTinted() const {
+    return passSides.tinted + passCaps.tinted + failSides.tinted + failCaps.tinted > 0 || atEye.filter != shadow::FilterSum{};
+  }
 };
 
 /// Only `counting` zFail or zPass. As prepareVolume, but

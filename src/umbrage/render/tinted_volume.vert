@@ -17,6 +17,7 @@ layout(std430, binding = 2) readonly buffer Pieces { Piece piece[]; };
 
 layout(location = 0) flat out vec4 high;  // opaque surfaces; 1024 steps each
 layout(location = 1) flat out vec3 low;   // single steps
+layout(location = 2) flat out ivec4 weight;
 
 vec3 positionOf(uint i) { return vec3(position[3u * i], position[3u * i + 1u], position[3u * i + 2u]); }
 
@@ -28,6 +29,7 @@ void main() {
   precise vec3 fromEye = (positionOf(i) - eyeHigh.xyz) - eyeLow.xyz;
   precise vec4 clip = toClip * ((vertex & 1u) != 0u ? farPoint[i] : vec4(fromEye, 1.0));
   gl_Position = clip;
+  weight = own.weight;
   // Both parts are small whole numbers, so that many thousands of them add up exactly in a float.
   ivec3 steps = own.weight.yzw, upper = (steps + 512) >> 10;
   high = vec4(own.weight.x, upper);

@@ -2,7 +2,6 @@
 
 #include <umbrage_shaders/surface_vert.hpp>
 #include <umbrage_shaders/veil_begin_comp.hpp>
-#include <umbrage_shaders/veil_clear_comp.hpp>
 #include <umbrage_shaders/veil_frag.hpp>
 #include <umbrage_shaders/veil_large_frag.hpp>
 #include <umbrage_shaders/veil_place_comp.hpp>
@@ -25,7 +24,7 @@ constexpr std::size_t kLeastFragments = 1 << 16;
 
 struct VeilLists::Programs {
   gl::Program ordinary{shaders::kSurfaceVert, shaders::kVeilFrag}, large{shaders::kSurfaceVert, shaders::kVeilLargeFrag};
-  gl::Program clear = gl::Program::compute(shaders::kVeilClearComp), begin = gl::Program::compute(shaders::kVeilBeginComp),
+  gl::Program begin = gl::Program::compute(shaders::kVeilBeginComp),
               place = gl::Program::compute(shaders::kVeilPlaceComp), sort = gl::Program::compute(shaders::kVeilSortComp);
 };
 
@@ -76,12 +75,13 @@ Result<void> VeilLists::find(gl::HostScope& scope, const Input& input) {
   if (programs_ == nullptr) programs_ = std::make_unique<Programs>();
   const std::size_t pixels = static_cast<std::size_t>(input.frame.width()) * static_cast<std::size_t>(input.frame.height());
   if (pixels_.bytes() != kVeilBytes * pixels)
-    if (auto done = pixels_.set(std::vector<std::byte>(kVeilBytes * pixels)); !done) return done;
+    if (auto done = pixels_.set(std::vector<std::byte>(kVeilBytes * pixels)); !done) return done;  // shaders ask for its length
   if (auto done = countsBuffer_.reserve(sizeof(Counts)); !done) return done;
   if (auto done = makeRoom(0); !done) return done;
   // Mostly once: again when there are more than ever before.
   for (;;) {
-    compute(scope, programs_->clear, pixels);
+    countsBuffer_.clear();
+    pixels_.clear();
     draw(scope, input);
     compute(scope, programs_->begin, pixels);
     countsBuffer_.read(std::as_writable_bytes(std::span(&counts_, 1)));

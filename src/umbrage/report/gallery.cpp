@@ -148,7 +148,7 @@ std::string card(const Gallery& gallery, const GalleryEntry& entry) {
       "<article class=\"card\" id=\"{0}\" data-name=\"{0}\">\n{1}<div class=\"tabs\">{2}</div>\n<div "
       "class=\"text\">{3}{4}<p>Made ready in {5}, a frame in {6} "
       "<span class=\"pale\">(median of {7})</span>.</p>\n{8}</div>\n</article>\n",
-      name, stage(entry, truth), tabs, words, verdict(entry), milliseconds(entry.prepareMs),
+      name, stage(entry, truth), tabs, words, verdict(entry) + unknown(entry), milliseconds(entry.prepareMs),
       milliseconds(entry.frameMs), entry.frames, badges(entry));
 }
 

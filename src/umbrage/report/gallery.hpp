@@ -14,6 +14,7 @@ struct GalleryError {
   std::size_t differing = 0;  ///< pixels whose light differs
   std::size_t astray = 0;     ///< those that no true shadow or depth edge comes near
   std::size_t covered = 0;    ///< pixels with a surface, summed over the lights as the others are
+  std::size_t unknown = 0;    ///< pixels that are not judged, since the technique knows no shadows there
   double rms = 0.0;           ///< root of the mean square difference of the light over these, 0 to 1
 };
 

@@ -33,4 +33,7 @@ struct LightSample {
 [[nodiscard]] std::vector<LightSample> lightSamples(const scene::Light& light, std::size_t first, std::size_t count,
                                                     const Box3& room = {});
 
+/// Which of two halves a sample belongs to, counted from the light's first: by itself each fills the light as evenly, so how much they differ tells the error.
+[[nodiscard]] constexpr std::size_t halfOf(std::size_t sample) { return sample / 8 % 2; }
+
 }  // namespace umbrage::shadow

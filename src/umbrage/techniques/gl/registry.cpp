@@ -3,6 +3,7 @@
 #include "umbrage/techniques/gl/planar.hpp"
 #include "umbrage/techniques/gl/shadow_map.hpp"
 #include "umbrage/techniques/gl/shadow_map_perspective.hpp"
+#include "umbrage/techniques/gl/soft.hpp"
 #include "umbrage/techniques/gl/transparent.hpp"
 #include "umbrage/techniques/gl/volumes_brute.hpp"
 #include "umbrage/techniques/gl/zfail.hpp"
@@ -41,9 +42,9 @@ std::vector<shadow::TechniqueEntry> openGlTechniques(const render::VolumeOptions
           entry(planarTraits(), makePlanar, slot, planes),
           entry(shadowMapTraits(), makeShadowMap, slot, maps),
           entry(perspectiveShadowMapTraits(), makePerspectiveShadowMap, slot, maps),
-
           entry(transparentTraits(), makeTransparent, slot, options),
-          entry(transparentZFailTraits(), makeTransparentZFail, slot, options)};
+          entry(transparentZFailTraits(), makeTransparentZFail, slot, options),
+          entry(softTraits(), makeSoft, slot, options)};
 }
 
 }  // namespace umbrage::techniques

@@ -43,7 +43,6 @@ class SoftMean {
   std::size_t samples_ = 0;
   bool tinted_ = false;
   image::GreyImage covered_;
-  [[nodiscard]] static std::size_t halfOf(std::size_t sample) { return sample / 8 % 2; }
   Half halves_[2];
 };
 
