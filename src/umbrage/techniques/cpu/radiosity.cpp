@@ -87,6 +87,7 @@ shadow::Traits radiosityTraits() {
       "Light at the vertices of elements that are cut where shadows end, interpolated: approximate, the same from "
       "every eye.";
   traits.soft = true;
+  traits.approximate = true;
   return traits;
 }
 
