@@ -226,7 +226,7 @@ class MaskTechnique final : public GlTechnique {
     pass.uniforms(2, own_->sample);
     pass.texture(0, work.target.ids());
     pass.texture(1, work.target.mask(slot));
-    pass.draw(own_->scene->vertices(), 3);
+    pass.draw(own_->scene->drawn().vertices(), 3);
     return {};
   }
 
@@ -237,7 +237,7 @@ class MaskTechnique final : public GlTechnique {
     gl::Pass pass(work.seen.scope, work.target.maskTarget(index), state);
     pass.use(*own_->mean);
     pass.texture(1, work.target.maskSum());
-    pass.draw(own_->scene->vertices(), 3);
+    pass.draw(own_->scene->drawn().vertices(), 3);
   }
 
   [[nodiscard]] image::GreyImage unshadowedPixels(const shadow::SurfaceBuffer& seen) const {
