@@ -229,14 +229,10 @@ TEST(Cut, TooMuchIsAnErrorAndNoFlood) {
   s.instances[0].casts = false;
   const auto geometry = shadow::makeGeometry(s);
   const scene::Light light = sun({0, 0, -1});
-  Effort::Limits few;
-  few.pieces = 2000;
-  auto cut = cutSurfaces(geometry, {&light, 1}, {}, few);
+  auto cut = cutSurfaces(geometry, {&light, 1}, {}, Effort::Limits{1 << 30, 2000});
   ASSERT_FALSE(cut.has_value());
   EXPECT_EQ(cut.error().code, ErrorCode::device);
-  Effort::Limits short_;
-  short_.steps = 10000;
-  cut = cutSurfaces(geometry, {&light, 1}, {}, short_);
+  cut = cutSurfaces(geometry, {&light, 1}, {}, Effort::Limits{10000, 1 << 30});
   ASSERT_FALSE(cut.has_value());
   EXPECT_EQ(cut.error().code, ErrorCode::device);
 }
@@ -245,7 +241,7 @@ TEST(Cut, CrossingCombsComeOutRight) {
   const auto c = cutAll(combs(24), {sun({0, 0, -1})});
   // 24 triangles of 0.4 / 24 / 2 each way; where two cross is counted by points.
   const auto& s = c.geometry->surfaces;
-  Effort effort;
+  Effort effort(Effort::usual(s.triangles.size()));
   const LightCutter cutter(c.geometry, sun({0, 0, -1}), ConeSides::none);
   const oracle::Oracle bruteForce(s);
   Random random(7);

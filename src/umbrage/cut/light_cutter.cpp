@@ -69,13 +69,15 @@ std::optional<FaceCut> LightCutter::cut(std::uint32_t triangle, Effort& effort) 
   if (!shadow::visibleSideFacesLight(p.geometry->surfaces, triangle, p.towards, p.towards) ||
       !(face.lightHeight > 0.0))
     return FaceCut(face.frame, face.tolerance, {}, FaceCut::kDark);
-  if (detail::isCovered(p.casters, face, {face.frame.flatCorners.begin(), face.frame.flatCorners.end()}))
+  std::int64_t steps = 1;
+  if (detail::isCovered(p.casters, face, {face.frame.flatCorners.begin(), face.frame.flatCorners.end()}, steps))
     return FaceCut(face.frame, face.tolerance, {}, FaceCut::kDark);
   detail::ConeLines cone;
   if (p.cone && !p.whollyInside(face))
     cone = {detail::linesOn(*p.cone, face, Vec3(p.towards)), p.cone->insideIsLit};
   detail::Borders borders = detail::bordersOn(p.casters, face);
-  if (!effort.spendSteps(1 + static_cast<std::int64_t>(borders.borders.size()))) return std::nullopt;
+  steps += static_cast<std::int64_t>(borders.borders.size());
+  if (!effort.spendSteps(steps)) return std::nullopt;
   return detail::partition(p.casters, face, std::move(borders), cone, effort);
 }
 

@@ -91,10 +91,10 @@ class SceneCutter {
 
 Result<Pieces> cutSurfaces(const std::shared_ptr<const shadow::Geometry>& geometry,
                            std::span<const scene::Light> lights, const ProgressSink& progress,
-                           const Effort::Limits& limits) {
+                           const std::optional<Effort::Limits>& limits) {
   UMBRAGE_CHECK(lights.size() <= kMostLights, "more lights than a piece has bits");
   const std::size_t count = geometry->surfaces.triangles.size();
-  SceneCutter cutter(geometry, lights, limits);
+  SceneCutter cutter(geometry, lights, limits.value_or(Effort::usual(count)));
   Pieces all;
   for (std::size_t begin = 0; begin < count; begin += kPerRound) {
     if (!reportProgress(progress, double(begin) / double(count), "cutting surfaces"))

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,10 +30,10 @@ inline constexpr std::size_t kMostLights = 64;
 
 /// Cuts all surfaces by the shadows of all casters under each light (see LightCutter).
 /// REQUIRES: at most kMostLights lights, all valid.
-/// Errors: ErrorCode::device when the work passes `limits` or memory runs out; as the sink says when it asks to stop.
+/// Errors: ErrorCode::device when the work passes `limits` (none: Effort::usual) or memory runs out; as the sink says when it asks to stop.
 [[nodiscard]] Result<Pieces> cutSurfaces(const std::shared_ptr<const shadow::Geometry>& geometry,
                                          std::span<const scene::Light> lights, const ProgressSink& progress = {},
-                                         const Effort::Limits& limits = {});
+                                         const std::optional<Effort::Limits>& limits = {});
 
 /// In square units of the scene.
 [[nodiscard]] double areaOf(const Pieces& pieces, const Piece& piece);

@@ -14,8 +14,8 @@ constexpr std::int32_t kLit = FaceCut::kLit, kDark = FaceCut::kDark;
 constexpr std::size_t kTried = 8, kWeighed = 64;
 // A border that the line cuts is worth so many on its wrong side.
 constexpr int kCutCost = 4;
-// A ray costs about so many steps.
-constexpr std::int64_t kRaySteps = 64;
+// Beside its borders and the casters over it, a polygon costs about so many steps.
+constexpr std::int64_t kPolygonSteps = 32;
 
 struct Task {
   Polygon polygon;
@@ -39,15 +39,16 @@ class Partition {
     while (!open_.empty()) {
       Task task = std::move(open_.back());
       open_.pop_back();
-      if (!effort_.spendSteps(kRaySteps + static_cast<std::int64_t>(task.borders.size()))) return std::nullopt;
-      if (task.borders.size() > 1 && isCovered(casters_, face_, task.polygon)) {
+      std::int64_t steps = kPolygonSteps + static_cast<std::int64_t>(task.borders.size());
+      if (task.borders.size() > 1 && isCovered(casters_, face_, task.polygon, steps)) {
         close(task.parent, task.side, kDark);
       } else if (const auto line = nextLine(task)) {
         if (!effort_.spendPieces(1)) return std::nullopt;
         divide(std::move(task), *line);
       } else {
-        close(task.parent, task.side, isHidden(casters_, face_, task.polygon) ? kDark : kLit);
+        close(task.parent, task.side, isHidden(casters_, face_, task.polygon, steps) ? kDark : kLit);
       }
+      if (!effort_.spendSteps(steps)) return std::nullopt;
     }
     joinAlike();
     return FaceCut(face_.frame, face_.tolerance, std::move(nodes_), root_);
