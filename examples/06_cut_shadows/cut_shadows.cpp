@@ -65,15 +65,17 @@ Result<void> draw(const char* path) {
   auto made = samples::make("courtyard");
   if (!made) return tl::unexpected(made.error());
   const scene::Scene scene = scene::withGround(std::move(*made));
-  const scene::Camera camera{.eye = {-30, -46, 72}, .target = {-3, 3, 5}, .fovY = Angle::degrees(36), .width = 960, .height = 540};
+  const scene::Camera camera{
+      .eye = {-30, -46, 72}, .target = {-3, 3, 5}, .fovY = Angle::degrees(36), .width = 960, .height = 540};
   const std::vector<scene::Light> lights{{.shape = scene::DirectionalLight{{-0.3, 1, -1.1}}}};
   const auto geometry = shadow::makeGeometry(scene);
 
   const auto cut = cut::cutSurfaces(geometry, lights);
   if (!cut) return tl::unexpected(cut.error());
   const auto areas = cut::sum(cut::areasByMaterial(geometry->surfaces, scene.materials.size(), *cut, lights.size()));
-  std::printf("%zu triangles in %zu pieces; %.6f m2 lit + %.6f m2 in shadow = %.6f m2\n", geometry->surfaces.triangles.size(),
-              cut->pieces.size(), areas.lights[0].lit, areas.lights[0].shadowed, areas.surface);
+  std::printf("%zu triangles in %zu pieces; %.6f m2 lit + %.6f m2 in shadow = %.6f m2\n",
+              geometry->surfaces.triangles.size(), cut->pieces.size(), areas.lights[0].lit, areas.lights[0].shadowed,
+              areas.surface);
 
   // The technique of that name makes the same cuts for what a camera sees.
   auto entries = techniques::cpuTechniques();

@@ -57,7 +57,8 @@ class SceneCutter {
     });
     if (!done) return tl::unexpected(done.error());
     if (spent_)
-      return fail(ErrorCode::device, "its shadows cross too often: cutting it takes more pieces or time than is allowed");
+      return fail(ErrorCode::device,
+                  "its shadows cross too often: cutting it takes more pieces or time than is allowed");
     Pieces all;
     for (const Pieces& p : tasks) append(all, p);
     return all;

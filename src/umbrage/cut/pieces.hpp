@@ -13,9 +13,9 @@ namespace umbrage::cut {
 
 /// A convex, flat part of a triangle that every light reaches as a whole or not at all.
 struct Piece {
-  std::uint32_t triangle;  ///< of Surfaces
+  std::uint32_t triangle;    ///< of Surfaces
   std::uint32_t begin, end;  ///< of Pieces::corners, in order around the piece
-  std::uint64_t litBy;     ///< bit k: light k reaches the side that faces it
+  std::uint64_t litBy;       ///< bit k: light k reaches the side that faces it
 };
 /// The surfaces of a scene, cut.
 /// 1. In the order of the triangles; those of one triangle cover it and do not overlap. A triangle that no border crosses is one piece, with its own corners

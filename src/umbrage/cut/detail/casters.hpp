@@ -70,7 +70,8 @@ void visitHiding(const Casters& casters, const Face& face, const Vec3& point, st
   const auto meets = [&](const Box3& box) {
     const Vec3 s = (box.min - margin - point) * inverse, t = (box.max + margin - point) * inverse;
     const Vec3 low = glm::min(s, t), high = glm::max(s, t);
-    return std::max(std::max(low.x, low.y), std::max(low.z, 0.0)) <= std::min(std::min(high.x, high.y), std::min(high.z, end));
+    return std::max(std::max(low.x, low.y), std::max(low.z, 0.0)) <=
+           std::min(std::min(high.x, high.y), std::min(high.z, end));
   };
   casters.hidingTree.visit(meets, [&](std::uint32_t item) {
     const std::uint32_t t = casters.hiding[item];

@@ -40,7 +40,8 @@ bool covers(const Casters& casters, std::uint32_t t, const Face& face, const Vec
   const std::array<Vec3, 3> corners{c.a, c.b, c.c};
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 towards = Vec3(casters.light) - corners[k] * casters.light.w;
-    if (!holds({glm::cross(corners[(k + 1) % 3] - corners[k], towards), corners[k]}, face, point, polygon)) return false;
+    if (!holds({glm::cross(corners[(k + 1) % 3] - corners[k], towards), corners[k]}, face, point, polygon))
+      return false;
   }
   return true;
 }
