@@ -100,7 +100,8 @@ std::string allJson(const CutOptions& options, const scene::Scene& scene, const 
     entry.update(areasJson(table.materials[m], table.square));
     json["materials"].push_back(entry);
   }
-  json["conventions"] = "each triangle counts once, by its side that faces the light; shadowed also: the light lies in its plane";
+  json["conventions"] =
+      "each triangle counts once, by its side that faces the light; shadowed also: the light lies in its plane";
   return jsonText(json);
 }
 
@@ -121,7 +122,8 @@ Result<Outcome> run(const CutOptions& options, const Console& console) {
   if (lights->lights.size() > cut::kMostLights)
     return fail(ErrorCode::usage, fmt::format("--light: {} lights at most", cut::kMostLights));
   for (const auto& light : lights->lights)
-    if (scene::isArea(light)) console.warn("a light with an extent cuts as its centre does: shadows have sharp borders here");
+    if (scene::isArea(light))
+      console.warn("a light with an extent cuts as its centre does: shadows have sharp borders here");
 
   Stopwatch watch;
   const auto geometry = shadow::makeGeometry(view->scene);
@@ -130,7 +132,8 @@ Result<Outcome> run(const CutOptions& options, const Console& console) {
   console.detail(fmt::format("cut        {:.0f} ms, {} triangles into {} pieces", watch.lap(),
                              geometry->surfaces.triangles.size(), pieces->pieces.size()));
   Table table;
-  table.materials = cut::areasByMaterial(geometry->surfaces, view->scene.materials.size(), *pieces, lights->lights.size());
+  table.materials =
+      cut::areasByMaterial(geometry->surfaces, view->scene.materials.size(), *pieces, lights->lights.size());
   table.all = cut::sum(table.materials);
   table.all.lights.resize(lights->lights.size());
   table.square = view->scene.metresPerUnit * view->scene.metresPerUnit;

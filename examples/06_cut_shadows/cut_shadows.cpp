@@ -44,14 +44,18 @@ image::Image<std::size_t> piecesSeen(const shadow::Geometry& geometry, const cut
   return pieces;
 }
 
-// Dark lines in the light and bright ones in shadow.
+// Cuts are dark lines in the light and bright ones in shadow; edges of triangles are faint.
 void drawCuts(const cut::Pieces& cut, const image::Image<std::size_t>& pieces, image::RgbImage& picture) {
   for (int y = 0; y + 1 < picture.height(); ++y)
     for (int x = 0; x + 1 < picture.width(); ++x) {
-      const std::size_t piece = pieces(x, y);
-      if (piece == cut.pieces.size() || (piece == pieces(x + 1, y) && piece == pieces(x, y + 1))) continue;
-      const bool lit = cut.pieces[piece].litBy != 0;
-      const auto towards = [&](std::uint8_t v) { return static_cast<std::uint8_t>(lit ? v / 3 : 110 + v / 2); };
+      const std::size_t piece = pieces(x, y), right = pieces(x + 1, y), below = pieces(x, y + 1);
+      if (piece == cut.pieces.size() || (piece == right && piece == below)) continue;
+      const auto isCut = [&](std::size_t other) {
+        return other != piece && other < cut.pieces.size() && cut.pieces[other].triangle == cut.pieces[piece].triangle;
+      };
+      const double line = cut.pieces[piece].litBy != 0 ? 0.0 : 255.0;
+      const double strength = isCut(right) || isCut(below) ? 0.7 : 0.15;
+      const auto towards = [&](std::uint8_t v) { return static_cast<std::uint8_t>(v + strength * (line - v)); };
       image::Rgb8& pixel = picture(x, y);
       pixel = {towards(pixel.r), towards(pixel.g), towards(pixel.b)};
     }
@@ -61,15 +65,17 @@ Result<void> draw(const char* path) {
   auto made = samples::make("courtyard");
   if (!made) return tl::unexpected(made.error());
   const scene::Scene scene = scene::withGround(std::move(*made));
-  const scene::Camera camera{.eye = {-42, -62, 58}, .target = {-3, 3, 5}, .fovY = Angle::degrees(38), .width = 1280, .height = 720};
+  const scene::Camera camera{
+      .eye = {-30, -46, 72}, .target = {-3, 3, 5}, .fovY = Angle::degrees(36), .width = 960, .height = 540};
   const std::vector<scene::Light> lights{{.shape = scene::DirectionalLight{{-0.3, 1, -1.1}}}};
   const auto geometry = shadow::makeGeometry(scene);
 
   const auto cut = cut::cutSurfaces(geometry, lights);
   if (!cut) return tl::unexpected(cut.error());
   const auto areas = cut::sum(cut::areasByMaterial(geometry->surfaces, scene.materials.size(), *cut, lights.size()));
-  std::printf("%zu triangles in %zu pieces; %.6f m2 lit + %.6f m2 in shadow = %.6f m2\n", geometry->surfaces.triangles.size(),
-              cut->pieces.size(), areas.lights[0].lit, areas.lights[0].shadowed, areas.surface);
+  std::printf("%zu triangles in %zu pieces; %.6f m2 lit + %.6f m2 in shadow = %.6f m2\n",
+              geometry->surfaces.triangles.size(), cut->pieces.size(), areas.lights[0].lit, areas.lights[0].shadowed,
+              areas.surface);
 
   // The technique of that name makes the same cuts for what a camera sees.
   auto entries = techniques::cpuTechniques();

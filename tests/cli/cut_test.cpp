@@ -60,8 +60,8 @@ TEST_F(Cutting, IsReadBackFromEveryFormatWithTheSameAreas) {
 
 TEST_F(Cutting, BySunsOfADayAndBySeveralLights) {
   const std::string box = writeBox();
-  const Ran day = umbrage({"cut", box, "--lat", "48.2", "--lon", "16.37", "--date", "2026-09-18", "--tz", "Europe/Vienna", "--at", "12:00",
-                           "--at", "15:00", "--json"});
+  const Ran day = umbrage({"cut", box, "--lat", "48.2", "--lon", "16.37", "--date", "2026-09-18", "--tz",
+                           "Europe/Vienna", "--at", "12:00", "--at", "15:00", "--json"});
   ASSERT_EQ(day.code, 0) << day.err;
   const Json json = Json::parse(day.out);
   ASSERT_EQ(json.at("lights").size(), 2u);
@@ -90,7 +90,8 @@ TEST_F(Cutting, RefusesWhatMakesNoSense) {
   refused({"--at", "12:00", "--date", "2026-09-18", "--tz", "Europe/Vienna"}, 2, "--lat");
   refused({"--at", "12:00", "--light", "point:0,0,9"}, 2, "--light");
   refused({"--date", "2026-09-18"}, 2, "--at");
-  refused({"--at", "23:00", "--date", "2026-09-18", "--tz", "Europe/Vienna", "--lat", "48", "--lon", "16"}, 2, "horizon");
+  refused({"--at", "23:00", "--date", "2026-09-18", "--tz", "Europe/Vienna", "--lat", "48", "--lon", "16"}, 2,
+          "horizon");
   refused({"--ambient", "2"}, 2, "--ambient");
   EXPECT_EQ(files().size(), 1u);
 }

@@ -66,7 +66,8 @@ void expectCovered(const Cutting& c) {
     const auto at = [&](std::uint32_t i) { return c.pieces.corners[p.begin + i % n]; };
     for (std::uint32_t i = 0; i < n; ++i) {
       const Vec3 a = at(i + 1) - at(i), b = at(i + 2) - at(i + 1);
-      EXPECT_GE(glm::dot(glm::cross(a, b), normal), -1e-9 * (glm::length(a) + glm::length(b)) * glm::length(s.bounds.size()));
+      EXPECT_GE(glm::dot(glm::cross(a, b), normal),
+                -1e-9 * (glm::length(a) + glm::length(b)) * glm::length(s.bounds.size()));
     }
   }
   for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
@@ -91,17 +92,19 @@ TEST(Cut, ABoxOnTheGroundShadowsWhatItsHeightSays) {
 
 TEST(Cut, ShadowsFallOnWallsAndRoofsToo) {
   // Before a long wall stands a post of 1 x 1 and 3 high; its shadow climbs the wall up to 3 - 2 x 0.5, and the eaves' board shadows the roof below.
-  const auto c = cutAll({flat(-20, -20, 20, 20, 0), shapes::box({-10, 0, 0}, {10, 5, 6}), shapes::box({-1, -3, 0}, {0, -2, 3}),
-                         flat(-10, 0, 10, 1, 8)},
+  const auto c = cutAll({flat(-20, -20, 20, 20, 0), shapes::box({-10, 0, 0}, {10, 5, 6}),
+                         shapes::box({-1, -3, 0}, {0, -2, 3}), flat(-10, 0, 10, 1, 8)},
                         {sun({0, 1, -0.5})});
-  EXPECT_NEAR(c.areas[1].lights[0].shadowed, 20 * 6 + 100 + 2 * 30 + 2.0 + 20.0, 1e-9);  // back, floor, ends, the post's shadow, the board's
+  EXPECT_NEAR(c.areas[1].lights[0].shadowed, 20 * 6 + 100 + 2 * 30 + 2.0 + 20.0,
+              1e-9);  // back, floor, ends, the post's shadow, the board's
   EXPECT_NEAR(c.areas[1].lights[0].lit, 120 - 2.0 + 100 - 20.0, 1e-9);
   expectCovered(c);
 }
 
 TEST(Cut, ALampEnlargesASquareBySimilarTriangles) {
   for (const double height : {2.0, 5.0 - 0x1p-10, 0x1p-10}) {
-    const auto c = cutAll({flat(-1e5, -1e5, 1e5, 1e5, 0), flat(-0.5, -0.5, 0.5, 0.5, height)}, {lamp({0.25, 0.125, 5})});
+    const auto c =
+        cutAll({flat(-1e5, -1e5, 1e5, 1e5, 0), flat(-0.5, -0.5, 0.5, 0.5, height)}, {lamp({0.25, 0.125, 5})});
     const double scale = 5 / (5 - height);
     EXPECT_NEAR(c.areas[0].lights[0].shadowed / (scale * scale), 1.0, 1e-9) << height;
   }
@@ -109,7 +112,8 @@ TEST(Cut, ALampEnlargesASquareBySimilarTriangles) {
 
 TEST(Cut, ALampFarAwayIsASun) {
   const Vec3 towards(3, -2, 4);
-  const std::vector<mesh::Mesh> meshes = {flat(-20, -20, 20, 20, 0), shapes::box({-1, -2, 0}, {2, 1, 3}), shapes::sphere({5, 5, 4}, 2, 12, 6)};
+  const std::vector<mesh::Mesh> meshes = {flat(-20, -20, 20, 20, 0), shapes::box({-1, -2, 0}, {2, 1, 3}),
+                                          shapes::sphere({5, 5, 4}, 2, 12, 6)};
   const auto near = cutAll(meshes, {sun(-towards)});
   for (const double distance : {1e9, 1e12, 1e14}) {
     const auto far = cutAll(meshes, {lamp(distance * towards)});
@@ -188,12 +192,14 @@ TEST(Cut, ScalesAndPlacesChangeNoShare) {
 
 TEST(Cut, SeveralLightsAreToldApart) {
   const std::vector<scene::Light> lights = {sun({1, 0.3, -1}), lamp({1, 1, 6}), spot({-4, -4, 7}, {0.5, 0.5, -1}, 30)};
-  const auto c = cutAll({flat(-10, -10, 10, 10, 0), shapes::box({-1, -2, 0.5}, {2, 1, 3}), shapes::sphere({4, 3, 2}, 1, 10, 6)}, lights);
+  const auto c = cutAll(
+      {flat(-10, -10, 10, 10, 0), shapes::box({-1, -2, 0.5}, {2, 1, 3}), shapes::sphere({4, 3, 2}, 1, 10, 6)}, lights);
   expectCovered(c);
   for (std::size_t k = 0; k < lights.size(); ++k) {
-    const auto alone = cutAll({flat(-10, -10, 10, 10, 0), shapes::box({-1, -2, 0.5}, {2, 1, 3}), shapes::sphere({4, 3, 2}, 1, 10, 6)}, {lights[k]});
-    for (std::size_t m = 0; m < 3; ++m)
-      EXPECT_NEAR(c.areas[m].lights[k].lit, alone.areas[m].lights[0].lit, 1e-9);
+    const auto alone =
+        cutAll({flat(-10, -10, 10, 10, 0), shapes::box({-1, -2, 0.5}, {2, 1, 3}), shapes::sphere({4, 3, 2}, 1, 10, 6)},
+               {lights[k]});
+    for (std::size_t m = 0; m < 3; ++m) EXPECT_NEAR(c.areas[m].lights[k].lit, alone.areas[m].lights[0].lit, 1e-9);
   }
 }
 
@@ -202,7 +208,8 @@ TEST(Cut, NothingIsNothing) {
   const auto dark = cutAll({flat(0, 0, 1, 1, 0)}, {});
   EXPECT_EQ(dark.pieces.pieces.size(), 2u);
   // Without area, and with the light in its plane.
-  const auto thin = cutAll({flat(0, 0, 1, 1, 0), shapes::triangle({0, 0, 1}, {1, 1, 1}, {2, 2, 1}), flat(0, 0, 1, 1, 1)}, {sun({1, 0, 0})});
+  const auto thin = cutAll(
+      {flat(0, 0, 1, 1, 0), shapes::triangle({0, 0, 1}, {1, 1, 1}, {2, 2, 1}), flat(0, 0, 1, 1, 1)}, {sun({1, 0, 0})});
   for (const Piece& p : thin.pieces.pieces) EXPECT_EQ(p.litBy, 0u);
   EXPECT_EQ(piecesOf(thin, 1), 0u);
 }
@@ -229,14 +236,10 @@ TEST(Cut, TooMuchIsAnErrorAndNoFlood) {
   s.instances[0].casts = false;
   const auto geometry = shadow::makeGeometry(s);
   const scene::Light light = sun({0, 0, -1});
-  Effort::Limits few;
-  few.pieces = 2000;
-  auto cut = cutSurfaces(geometry, {&light, 1}, {}, few);
+  auto cut = cutSurfaces(geometry, {&light, 1}, {}, Effort::Limits{1 << 30, 2000});
   ASSERT_FALSE(cut.has_value());
   EXPECT_EQ(cut.error().code, ErrorCode::device);
-  Effort::Limits short_;
-  short_.steps = 10000;
-  cut = cutSurfaces(geometry, {&light, 1}, {}, short_);
+  cut = cutSurfaces(geometry, {&light, 1}, {}, Effort::Limits{10000, 1 << 30});
   ASSERT_FALSE(cut.has_value());
   EXPECT_EQ(cut.error().code, ErrorCode::device);
 }
@@ -245,7 +248,7 @@ TEST(Cut, CrossingCombsComeOutRight) {
   const auto c = cutAll(combs(24), {sun({0, 0, -1})});
   // 24 triangles of 0.4 / 24 / 2 each way; where two cross is counted by points.
   const auto& s = c.geometry->surfaces;
-  Effort effort;
+  Effort effort(Effort::usual(s.triangles.size()));
   const LightCutter cutter(c.geometry, sun({0, 0, -1}), ConeSides::none);
   const oracle::Oracle bruteForce(s);
   Random random(7);
@@ -281,14 +284,15 @@ TEST(LitScene, KeepsPartsAndNamesWhatReachesThem) {
   const std::vector<scene::Light> lights = {sun({0.4, 0.3, -1}), sun({-0.4, 0.3, -1})};
   auto c = cutAll({flat(-10, -10, 10, 10, 0), shapes::box({-1, -1, 0}, {1, 1, 3})}, lights);
   c.scene.instances[0].name = "Site/Lawn", c.scene.instances[1].name = "House";
-  c.scene.materials[0] = {"grass", Vec3(0.2, 0.5, 0.2), 1.0}, c.scene.materials[1] = {"brick", Vec3(0.6, 0.3, 0.2), 0.5};
+  c.scene.materials[0] = {"grass", Vec3(0.2, 0.5, 0.2), 1.0},
+  c.scene.materials[1] = {"brick", Vec3(0.6, 0.3, 0.2), 0.5};
   const auto lit = litScene(c.scene, c.geometry->surfaces, c.pieces, lights.size(), 0.25);
   EXPECT_FALSE(scene::findFault(lit).has_value());
   std::set<std::string> names, materials;
   for (const auto& i : lit.instances) names.insert(i.name);
   for (const auto& m : lit.materials) materials.insert(m.name);
-  EXPECT_EQ(names, (std::set<std::string>{"Site/Lawn/lit", "Site/Lawn/lit 1", "Site/Lawn/lit 2", "Site/Lawn/shadow", "House/lit",
-                                          "House/lit 1", "House/lit 2", "House/shadow"}));
+  EXPECT_EQ(names, (std::set<std::string>{"Site/Lawn/lit", "Site/Lawn/lit 1", "Site/Lawn/lit 2", "Site/Lawn/shadow",
+                                          "House/lit", "House/lit 1", "House/lit 2", "House/shadow"}));
   EXPECT_EQ(materials, (std::set<std::string>{"grass lit", "grass lit 1", "grass lit 2", "grass shadow", "brick lit",
                                               "brick lit 1", "brick lit 2", "brick shadow"}));
   double area = 0.0;

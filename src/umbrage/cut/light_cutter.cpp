@@ -41,7 +41,8 @@ struct LightCutter::Parts {
     face.reach = s.casts[triangle] != 0 ? trace::reachOf(s, triangle) : 0.0;
     face.lightHeight = glm::dot(face.up, towardsLight);
     // Shadows of casters this far away fall on the face with their rounding, stretched by a low light.
-    const double far = glm::length(casters.set.bounds.size()) + (casters.set.bounds.empty() ? 0.0 : glm::length(casters.set.bounds.centre() - corners[0]));
+    const double far = glm::length(casters.set.bounds.size()) +
+                       (casters.set.bounds.empty() ? 0.0 : glm::length(casters.set.bounds.centre() - corners[0]));
     const double own = std::max(glm::length(corners[1] - corners[0]), glm::length(corners[2] - corners[0]));
     const double sine = std::min(1.0, face.lightHeight / glm::length(towardsLight));
     face.tolerance = kNothing * (own + far / sine);
@@ -51,9 +52,9 @@ struct LightCutter::Parts {
   // A convex face between whose corners the cone has no border.
   [[nodiscard]] bool whollyInside(const detail::Face& face) const {
     return cone->insideIsLit && std::all_of(cone->inwards.begin(), cone->inwards.end(), [&](const Vec3& n) {
-      return std::all_of(face.frame.corners.begin(), face.frame.corners.end(),
-                         [&](const Vec3& c) { return glm::dot(n, c - Vec3(towards)) >= 0.0; });
-    });
+             return std::all_of(face.frame.corners.begin(), face.frame.corners.end(),
+                                [&](const Vec3& c) { return glm::dot(n, c - Vec3(towards)) >= 0.0; });
+           });
   }
 };
 
@@ -66,16 +67,16 @@ LightCutter::~LightCutter() = default;
 std::optional<FaceCut> LightCutter::cut(std::uint32_t triangle, Effort& effort) const {
   const Parts& p = *parts_;
   const detail::Face face = p.face(triangle);
-  if (!shadow::visibleSideFacesLight(p.geometry->surfaces, triangle, p.towards, p.towards) ||
-      !(face.lightHeight > 0.0))
+  if (!shadow::visibleSideFacesLight(p.geometry->surfaces, triangle, p.towards, p.towards) || !(face.lightHeight > 0.0))
     return FaceCut(face.frame, face.tolerance, {}, FaceCut::kDark);
-  if (detail::isCovered(p.casters, face, {face.frame.flatCorners.begin(), face.frame.flatCorners.end()}))
+  std::int64_t steps = 1;
+  if (detail::isCovered(p.casters, face, {face.frame.flatCorners.begin(), face.frame.flatCorners.end()}, steps))
     return FaceCut(face.frame, face.tolerance, {}, FaceCut::kDark);
   detail::ConeLines cone;
-  if (p.cone && !p.whollyInside(face))
-    cone = {detail::linesOn(*p.cone, face, Vec3(p.towards)), p.cone->insideIsLit};
+  if (p.cone && !p.whollyInside(face)) cone = {detail::linesOn(*p.cone, face, Vec3(p.towards)), p.cone->insideIsLit};
   detail::Borders borders = detail::bordersOn(p.casters, face);
-  if (!effort.spendSteps(1 + static_cast<std::int64_t>(borders.borders.size()))) return std::nullopt;
+  steps += static_cast<std::int64_t>(borders.borders.size());
+  if (!effort.spendSteps(steps)) return std::nullopt;
   return detail::partition(p.casters, face, std::move(borders), cone, effort);
 }
 

@@ -49,7 +49,8 @@ class Builder {
       for (; i < pieces_.pieces.size() && surfaces_.instances[pieces_.pieces[i].triangle] == instance; ++i)
         add(pieces_.pieces[i], growing[pieces_.pieces[i].litBy]);
       // The lit first: names that end in shadow come last.
-      for (auto it = growing.rbegin(); it != growing.rend(); ++it) place(instance, it->first, std::move(it->second.mesh));
+      for (auto it = growing.rbegin(); it != growing.rend(); ++it)
+        place(instance, it->first, std::move(it->second.mesh));
     }
     if (out_.materials.empty()) out_.materials = scene_.materials;
     return std::move(out_);

@@ -57,7 +57,8 @@ class SceneCutter {
     });
     if (!done) return tl::unexpected(done.error());
     if (spent_)
-      return fail(ErrorCode::device, "its shadows cross too often: cutting it takes more pieces or time than is allowed");
+      return fail(ErrorCode::device,
+                  "its shadows cross too often: cutting it takes more pieces or time than is allowed");
     Pieces all;
     for (const Pieces& p : tasks) append(all, p);
     return all;
@@ -91,10 +92,10 @@ class SceneCutter {
 
 Result<Pieces> cutSurfaces(const std::shared_ptr<const shadow::Geometry>& geometry,
                            std::span<const scene::Light> lights, const ProgressSink& progress,
-                           const Effort::Limits& limits) {
+                           const std::optional<Effort::Limits>& limits) {
   UMBRAGE_CHECK(lights.size() <= kMostLights, "more lights than a piece has bits");
   const std::size_t count = geometry->surfaces.triangles.size();
-  SceneCutter cutter(geometry, lights, limits);
+  SceneCutter cutter(geometry, lights, limits.value_or(Effort::usual(count)));
   Pieces all;
   for (std::size_t begin = 0; begin < count; begin += kPerRound) {
     if (!reportProgress(progress, double(begin) / double(count), "cutting surfaces"))

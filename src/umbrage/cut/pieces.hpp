@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,9 +13,9 @@ namespace umbrage::cut {
 
 /// A convex, flat part of a triangle that every light reaches as a whole or not at all.
 struct Piece {
-  std::uint32_t triangle;  ///< of Surfaces
+  std::uint32_t triangle;    ///< of Surfaces
   std::uint32_t begin, end;  ///< of Pieces::corners, in order around the piece
-  std::uint64_t litBy;     ///< bit k: light k reaches the side that faces it
+  std::uint64_t litBy;       ///< bit k: light k reaches the side that faces it
 };
 /// The surfaces of a scene, cut.
 /// 1. In the order of the triangles; those of one triangle cover it and do not overlap. A triangle that no border crosses is one piece, with its own corners
@@ -29,10 +30,10 @@ inline constexpr std::size_t kMostLights = 64;
 
 /// Cuts all surfaces by the shadows of all casters under each light (see LightCutter).
 /// REQUIRES: at most kMostLights lights, all valid.
-/// Errors: ErrorCode::device when the work passes `limits` or memory runs out; as the sink says when it asks to stop.
+/// Errors: ErrorCode::device when the work passes `limits` (none: Effort::usual) or memory runs out; as the sink says when it asks to stop.
 [[nodiscard]] Result<Pieces> cutSurfaces(const std::shared_ptr<const shadow::Geometry>& geometry,
                                          std::span<const scene::Light> lights, const ProgressSink& progress = {},
-                                         const Effort::Limits& limits = {});
+                                         const std::optional<Effort::Limits>& limits = {});
 
 /// In square units of the scene.
 [[nodiscard]] double areaOf(const Pieces& pieces, const Piece& piece);

@@ -58,9 +58,9 @@ struct Standing {
 };
 [[nodiscard]] Standing standing(const Casters& casters, const Face& face, std::uint32_t triangle);
 
-/// Calls visit(triangle) for the casters that hide `point`, which lies on the face away from borders, until it answers false.
+/// Calls visit(triangle) for the casters that hide `point`, which lies on the face away from borders, until it answers false. `steps` grows by the work it was.
 template <class Visit>
-void visitHiding(const Casters& casters, const Face& face, const Vec3& point, Visit&& visit) {
+void visitHiding(const Casters& casters, const Face& face, const Vec3& point, std::int64_t& steps, Visit&& visit) {
   const Vec3 towards = Vec3(casters.light) - point * casters.light.w;
   const Box3& all = casters.set.bounds;
   const double margin = 0x1p-40 * (glm::length(all.size()) + glm::length(point - all.centre()));
@@ -70,10 +70,12 @@ void visitHiding(const Casters& casters, const Face& face, const Vec3& point, Vi
   const auto meets = [&](const Box3& box) {
     const Vec3 s = (box.min - margin - point) * inverse, t = (box.max + margin - point) * inverse;
     const Vec3 low = glm::min(s, t), high = glm::max(s, t);
-    return std::max(std::max(low.x, low.y), std::max(low.z, 0.0)) <= std::min(std::min(high.x, high.y), std::min(high.z, end));
+    return std::max(std::max(low.x, low.y), std::max(low.z, 0.0)) <=
+           std::min(std::min(high.x, high.y), std::min(high.z, end));
   };
   casters.hidingTree.visit(meets, [&](std::uint32_t item) {
     const std::uint32_t t = casters.hiding[item];
+    ++steps;
     if (!trace::hides(casters.corners(t), point, casters.light) || !standing(casters, face, t).before()) return true;
     return static_cast<bool>(visit(t));
   });

@@ -8,9 +8,9 @@ namespace {
 // Of the casters over a point so many are tried.
 constexpr int kTried = 8;
 
-bool isHidden(const Casters& casters, const Face& face, const Vec3& point) {
+bool isHidden(const Casters& casters, const Face& face, const Vec3& point, std::int64_t& steps) {
   bool hidden = false;
-  visitHiding(casters, face, point, [&](std::uint32_t) {
+  visitHiding(casters, face, point, steps, [&](std::uint32_t) {
     hidden = true;
     return false;
   });
@@ -40,7 +40,8 @@ bool covers(const Casters& casters, std::uint32_t t, const Face& face, const Vec
   const std::array<Vec3, 3> corners{c.a, c.b, c.c};
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 towards = Vec3(casters.light) - corners[k] * casters.light.w;
-    if (!holds({glm::cross(corners[(k + 1) % 3] - corners[k], towards), corners[k]}, face, point, polygon)) return false;
+    if (!holds({glm::cross(corners[(k + 1) % 3] - corners[k], towards), corners[k]}, face, point, polygon))
+      return false;
   }
   return true;
 }
@@ -59,17 +60,17 @@ Vec3 innerPoint(const Face& face, const Polygon& polygon, int which) {
   return face.frame.origin + sum.x * face.frame.e1 + sum.y * face.frame.e2;
 }
 
-bool isHidden(const Casters& casters, const Face& face, const Polygon& polygon) {
-  const bool first = isHidden(casters, face, innerPoint(face, polygon, 0));
-  const bool second = isHidden(casters, face, innerPoint(face, polygon, 1));
-  return first == second ? first : isHidden(casters, face, innerPoint(face, polygon, 2));
+bool isHidden(const Casters& casters, const Face& face, const Polygon& polygon, std::int64_t& steps) {
+  const bool first = isHidden(casters, face, innerPoint(face, polygon, 0), steps);
+  const bool second = isHidden(casters, face, innerPoint(face, polygon, 1), steps);
+  return first == second ? first : isHidden(casters, face, innerPoint(face, polygon, 2), steps);
 }
 
-bool isCovered(const Casters& casters, const Face& face, const Polygon& polygon) {
+bool isCovered(const Casters& casters, const Face& face, const Polygon& polygon, std::int64_t& steps) {
   const Vec3 point = innerPoint(face, polygon, 0);
   int tried = 0;
   bool covered = false;
-  visitHiding(casters, face, point, [&](std::uint32_t t) {
+  visitHiding(casters, face, point, steps, [&](std::uint32_t t) {
     covered = covers(casters, t, face, point, polygon);
     return !covered && ++tried < kTried;
   });

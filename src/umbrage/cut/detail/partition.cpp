@@ -14,8 +14,8 @@ constexpr std::int32_t kLit = FaceCut::kLit, kDark = FaceCut::kDark;
 constexpr std::size_t kTried = 8, kWeighed = 64;
 // A border that the line cuts is worth so many on its wrong side.
 constexpr int kCutCost = 4;
-// A ray costs about so many steps.
-constexpr std::int64_t kRaySteps = 64;
+// Beside its borders and the casters over it, a polygon costs about so many steps.
+constexpr std::int64_t kPolygonSteps = 32;
 
 struct Task {
   Polygon polygon;
@@ -39,15 +39,16 @@ class Partition {
     while (!open_.empty()) {
       Task task = std::move(open_.back());
       open_.pop_back();
-      if (!effort_.spendSteps(kRaySteps + static_cast<std::int64_t>(task.borders.size()))) return std::nullopt;
-      if (task.borders.size() > 1 && isCovered(casters_, face_, task.polygon)) {
+      std::int64_t steps = kPolygonSteps + static_cast<std::int64_t>(task.borders.size());
+      if (task.borders.size() > 1 && isCovered(casters_, face_, task.polygon, steps)) {
         close(task.parent, task.side, kDark);
       } else if (const auto line = nextLine(task)) {
         if (!effort_.spendPieces(1)) return std::nullopt;
         divide(std::move(task), *line);
       } else {
-        close(task.parent, task.side, isHidden(casters_, face_, task.polygon) ? kDark : kLit);
+        close(task.parent, task.side, isHidden(casters_, face_, task.polygon, steps) ? kDark : kLit);
       }
+      if (!effort_.spendSteps(steps)) return std::nullopt;
     }
     joinAlike();
     return FaceCut(face_.frame, face_.tolerance, std::move(nodes_), root_);
@@ -104,7 +105,7 @@ class Partition {
       int below = 0, above = 0, cut = 0;
       for (std::size_t k = weighStep / 2; k < count; k += weighStep) {
         const double a = heightOf(line, borders[k].from), b = heightOf(line, borders[k].to);
-        const bool goesBelow = std::min(a, b) < -face_.tolerance, goesAbove = std::max(a, b) > face_.tolerance;
+        const bool goesBelow = std::min(a, b)<-face_.tolerance, goesAbove = std::max(a, b)> face_.tolerance;
         below += goesBelow, above += goesAbove, cut += goesBelow && goesAbove;
       }
       const int cost = std::abs(below - above) + kCutCost * cut;
@@ -129,11 +130,11 @@ class Partition {
 
   // Those on the line itself bound both parts and divide neither.
   [[nodiscard]] std::pair<std::vector<Border>, std::vector<Border>> dividedBorders(const std::vector<Border>& borders,
-                                                                                  const Vec3& line) const {
+                                                                                   const Vec3& line) const {
     std::pair<std::vector<Border>, std::vector<Border>> parts;
     for (const Border& b : borders) {
       const double from = heightOf(line, b.from), to = heightOf(line, b.to);
-      const bool below = std::min(from, to) < -face_.tolerance, above = std::max(from, to) > face_.tolerance;
+      const bool below = std::min(from, to)<-face_.tolerance, above = std::max(from, to)> face_.tolerance;
       if (below && above) {
         const Vec2 between = b.from + (from / (from - to)) * (b.to - b.from);
         (from < 0.0 ? parts.first : parts.second).push_back({b.from, between, b.line});
@@ -159,20 +160,20 @@ class Partition {
     root_ = joined(root_);
     if (root_ < 0) return nodes_.clear();
     // Children come after their parents.
-    std::vector<std::int32_t> place(nodes_.size(), -1);
-    place[static_cast<std::size_t>(root_)] = 0;
-    std::int32_t count = 1;
-    std::vector<FaceCut::Node> kept;
+    std::vector<std::uint8_t> isUsed(nodes_.size(), 0);
+    isUsed[static_cast<std::size_t>(root_)] = 1;
+    std::vector<std::int32_t> place(nodes_.size());
+    std::int32_t count = 0;
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      if (place[n] < 0) continue;
+      if (isUsed[n] == 0) continue;
+      place[n] = count++;
       for (const std::int32_t next : nodes_[n].next)
-        if (next >= 0) place[static_cast<std::size_t>(next)] = 0;
+        if (next >= 0) isUsed[static_cast<std::size_t>(next)] = 1;
     }
-    count = 0;
-    for (std::int32_t& p : place)
-      if (p >= 0) p = count++;
+    std::vector<FaceCut::Node> kept;
+    kept.reserve(static_cast<std::size_t>(count));
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      if (place[n] < 0) continue;
+      if (isUsed[n] == 0) continue;
       for (std::int32_t& next : nodes_[n].next)
         if (next >= 0) next = place[static_cast<std::size_t>(next)];
       kept.push_back(nodes_[n]);

@@ -34,7 +34,7 @@ class LitFaces {
     std::vector<std::uint32_t> missing;
     for (const std::uint32_t t : triangles)
       if (!cuts_[t]) missing.push_back(t);
-    cut::Effort effort;
+    cut::Effort effort(cut::Effort::usual(cuts_.size()));
     std::atomic<bool> spent = false;
     const auto done = parallel::forEach(static_cast<int>(missing.size()), [&](int i) {
       const std::uint32_t t = missing[static_cast<std::size_t>(i)];

@@ -10,8 +10,8 @@ namespace umbrage::techniques::detail {
 namespace {
 
 std::shared_ptr<const shadow::Geometry> site() {
-  auto s = shapes::scene({shapes::quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}), shapes::box({-1, -2, 0}, {2, 1, 3}),
-                          shapes::knot({-4, 3, 3}, 2, 0.4, 60, 8)});
+  auto s = shapes::scene({shapes::quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}),
+                          shapes::box({-1, -2, 0}, {2, 1, 3}), shapes::knot({-4, 3, 3}, 2, 0.4, 60, 8)});
   s.instances[0].casts = false;
   return shadow::makeGeometry(s);
 }
@@ -23,7 +23,9 @@ scene::Camera camera(int width = 160, int height = 90) {
   return c;
 }
 
-scene::Light sun(double turn) { return {scene::DirectionalLight{{std::cos(turn), std::sin(turn), -0.8}}, Vec3(1.0), 1.0, ""}; }
+scene::Light sun(double turn) {
+  return {scene::DirectionalLight{{std::cos(turn), std::sin(turn), -0.8}}, Vec3(1.0), 1.0, ""};
+}
 
 std::size_t differing(const shadow::LightMask& a, const shadow::LightMask& b) {
   std::size_t count = 0;
@@ -52,8 +54,10 @@ TEST(Svbsp, ASunThatGoesRoundIsAsRaysHaveIt) {
 
 TEST(Svbsp, APictureIsTheSameTwiceAndFromCutsOfOthers) {
   const auto geometry = site();
-  const std::vector<scene::Light> lights = {sun(1), {scene::PointLight{{4, -3, 6}}, Vec3(1.0), 1.0, ""},
-                                            {scene::SpotLight{{-6, -6, 8}, {1, 1, -1}, Angle::degrees(20)}, Vec3(1.0), 1.0, ""}};
+  const std::vector<scene::Light> lights = {
+      sun(1),
+      {scene::PointLight{{4, -3, 6}}, Vec3(1.0), 1.0, ""},
+      {scene::SpotLight{{-6, -6, 8}, {1, 1, -1}, Angle::degrees(20)}, Vec3(1.0), 1.0, ""}};
   auto one = makeSvbsp().value(), other = makeSvbsp().value();
   ASSERT_TRUE(one->prepare(geometry) && other->prepare(geometry));
   const auto first = one->shade({camera(), lights});
@@ -70,7 +74,8 @@ TEST(Svbsp, APictureIsTheSameTwiceAndFromCutsOfOthers) {
 TEST(Svbsp, AnotherSceneForgetsTheFirst) {
   auto technique = makeSvbsp().value(), fresh = makeSvbsp().value();
   const scene::Light light = sun(2);
-  const auto other = shadow::makeGeometry(shapes::scene({shapes::quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}), shapes::box({2, 2, 1}, {3, 3, 2})}));
+  const auto other = shadow::makeGeometry(
+      shapes::scene({shapes::quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}), shapes::box({2, 2, 1}, {3, 3, 2})}));
   ASSERT_TRUE(technique->prepare(site()));
   ASSERT_TRUE(technique->shade({camera(), {&light, 1}}));
   ASSERT_TRUE(technique->prepare(other) && fresh->prepare(other));
