@@ -106,7 +106,7 @@ TEST(Tracer, AMirrorShowsTheMirroredCamerasPicture) {
   EXPECT_EQ(different, 0u);
 }
 
-TEST(Tracer, WithoutDepthItIsTheComposite) {
+TEST(Tracer, WithoutDepthAMirrorHasItsOwnLook) {
   auto scene = yard();
   paintMesh(scene, 1, {.name = "mirror", .colour = Vec3(0.9, 0.8, 0.7), .mirror = 0.7});
   scene::Camera camera;
@@ -116,7 +116,11 @@ TEST(Tracer, WithoutDepthItIsTheComposite) {
   const auto geometry = shadow::makeGeometry(scene);
   const auto plain = paint(scene, geometry, camera, lights, {});
   const auto mirrors = paint(scene, geometry, camera, lights, {.reflections = 2});
-  ASSERT_TRUE(plain && mirrors);
+  auto mat = scene;
+  mat.materials.back().mirror = 0.0;
+  const auto truth = paint(mat, geometry, camera, lights, {.reflections = 2});
+  ASSERT_TRUE(plain && mirrors && truth);
+  EXPECT_EQ(*plain, *truth);
   EXPECT_NE(*plain, *mirrors);
 }
 

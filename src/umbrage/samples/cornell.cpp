@@ -10,7 +10,7 @@ constexpr double kWall = 0.125;  // thickness
 /// A block turned about its upright axis: a corner of its foot, one edge of it, and its height.
 void addBlock(Part& part, const Vec2& corner, const Vec2& edge, double height) {
   const Outline foot{corner, corner + edge, corner + edge + Vec2(-edge.y, edge.x), corner + Vec2(-edge.y, edge.x)};
-  addPrism(part, foot, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, height});
+  addPrism(part, foot, {0, 0, kWall}, {1, 0, 0}, {0, 1, 0}, {0, 0, height});
 }
 
 }  // namespace
@@ -23,18 +23,23 @@ scene::Scene cornell() {
                       green = scene.material("green", 0x2C9838), lamp = scene.material("lamp", 0xC8C8C8);
   scene.shine(lamp, {26.0, 21.0, 14.0});
   Part floor("Floor", white), ceiling("Ceiling", white), back("Back", white), left("Left", red), right("Right", green);
-  addBox(floor, {-kWall, 0, 0}, {kRoom + kWall, kRoom + kWall, kWall});
-  addBox(ceiling, {-kWall, 0, kRoom + kWall}, {kRoom + kWall, kRoom + kWall, kRoom + 2 * kWall});
-  addBox(back, {0, kRoom, kWall}, {kRoom, kRoom + kWall, kRoom + kWall});
-  addBox(left, {-kWall, 0, kWall}, {0, kRoom + kWall, kRoom + kWall});
-  addBox(right, {kRoom, 0, kWall}, {kRoom + kWall, kRoom + kWall, kRoom + kWall});
+  // Walls touch in edges, so that what is seen of each is all of one of its faces.
+  const double foot = kWall, top = kWall + kRoom;
+  addBox(floor, {0, 0, 0}, {kRoom, kRoom, foot});
+  addBox(ceiling, {0, 0, top}, {kRoom, kRoom, top + kWall});
+  addBox(back, {0, kRoom, foot}, {kRoom, kRoom + kWall, top});
+  addBox(left, {-kWall, 0, foot}, {0, kRoom, top});
+  addBox(right, {kRoom, 0, foot}, {kRoom + kWall, kRoom, top});
   for (Part* part : {&floor, &ceiling, &back, &left, &right}) scene.place("Room", std::move(*part));
-  Part panel("Panel", lamp);
-  addBox(panel, {2.125, 2.25, kRoom + kWall - 0.0625}, {3.375, 3.25, kRoom + kWall - 0.03125});
+  Part housing("Housing", white), panel("Panel", lamp);
+  addBox(housing, {2.0625, 2.1875, top - 0.0625}, {3.4375, 3.3125, top});
+  addSheet(panel, {2.125, 2.25, top - 0.09375}, {2.125, 3.25, top - 0.09375}, {3.375, 3.25, top - 0.09375},
+           {3.375, 2.25, top - 0.09375});
+  scene.place("Lamp", std::move(housing));
   scene.place("Lamp", std::move(panel));
   Part tall("Tall", white), low("Low", white);
-  addBlock(tall, {1.125, 2.875}, {1.5625, 0.5}, 3.25 + kWall);
-  addBlock(low, {3.125, 0.75}, {1.5625, -0.4375}, 1.625 + kWall);
+  addBlock(tall, {1.125, 2.875}, {1.5625, 0.5}, 3.25);
+  addBlock(low, {3.125, 0.75}, {1.5625, -0.4375}, 1.625);
   scene.place("Blocks", std::move(tall));
   scene.place("Blocks", std::move(low));
   return std::move(scene).take();

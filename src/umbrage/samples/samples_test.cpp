@@ -127,9 +127,9 @@ const std::map<std::string, Expected>& expectations() {
         6705907215128359498ull,
         {"Pavilion/South/Panes", "Pavilion/East/Panes"},
         {}}},
-      {"cornell", {96, 96, {-0.125, 0, 0}, {5.625, 5.625, 5.75}, 15968708578153512032ull, {}, {}}},
+      {"cornell", {98, 98, {-0.125, 0, 0}, {5.625, 5.625, 5.75}, 10523043275585144708ull, {"Lamp/Panel"}, {}}},
       {"still_life",
-       {60000, 70000, {-6, -6, 0}, {6, 6, 4.5}, 9534620504320989898ull, {"Still life/Floor", "Still life/Mirror"}, {}}}};
+       {60000, 70000, {-6.125, -6, 0}, {6, 6, 6}, 4984172173680779176ull, {"Still life/Floor", "Still life/Mirror"}, {}}}};
   return all;
 }
 

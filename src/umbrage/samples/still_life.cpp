@@ -31,7 +31,8 @@ scene::Scene stillLife() {
   SceneBuilder scene("still_life");
   const std::uint32_t dark = scene.material("dark", 0xA83C28), pale = scene.material("pale", 0xF0D890),
                       silver = scene.material("silver", 0xF4F4F0), glass = scene.material("glass", 0xF8FCFC, 0.0),
-                      frame = scene.material("frame", 0x503820), clay = scene.material("clay", 0x4880C0);
+                      frame = scene.material("frame", 0x503820), clay = scene.material("clay", 0x4880C0),
+                      blue = scene.material("blue", 0x5E7E98), ochre = scene.material("ochre", 0xB08850);
   scene.mirror(silver, 0.9);
   scene.fill(glass, {0.98, 0.995, 0.99}, 1.5);
   Part floor("Floor", dark);
@@ -46,6 +47,11 @@ scene::Scene stillLife() {
   Part board("Frame", frame);
   addBox(board, {-3.75, 4.0625, 0}, {3.75, 4.25, 4.5});
   scene.place("Still life", std::move(board));
+  Part back("Back", blue), side("Side", ochre);
+  addBox(back, {-6, 4.375, 0}, {6, 4.5, 6});
+  addBox(side, {-6.125, -6, 0}, {-6, 4.375, 6});
+  scene.place("Room", std::move(back));
+  scene.place("Room", std::move(side));
   scene.light({scene::PointLight{{-3.5, -5.5, 7.0}}, Vec3(1.0), 0.9, "lamp"});
   return std::move(scene).take();
 }
