@@ -56,7 +56,7 @@ class Scanline final : public shadow::Technique {
     const int atEye = raster::countAtEye(casters, silhouette, space, corners);
     clock.end("sides");
     auto mask = picture_->paint(light, [&](int band, int first, int end) -> ScanPicture::RowShader {
-      auto active = std::make_shared<raster::ActiveList>(corners, first, end);
+      auto active = std::make_shared<raster::ActiveList>(corners, first, end, raster::ActiveList::Order::none);
       sides_.forEachIn(band, [&](const Patch& side, std::uint64_t) { active->add(side); });
       return [active, atEye, count = raster::DepthCount(space.width)](int y, std::span<const Run> runs,
                                                                       std::uint8_t* lit) mutable {
