@@ -16,7 +16,8 @@ namespace umbrage::raster {
 class DepthCount {
  public:
   explicit DepthCount(int width)
-      : change_(static_cast<std::size_t>(width) + 1, 0), pieces_(static_cast<std::size_t>((width + kPiece - 1) / kPiece)) {}
+      : change_(static_cast<std::size_t>(width) + 1, 0),
+        pieces_(static_cast<std::size_t>((width + kPiece - 1) / kPiece)) {}
 
   /// Calls fn(pixels, count) for the parts of each run on which the count is one, from left to right.
   /// `sides`: patches with a weight, as ActiveList has them for row y, in any order. `atEye`: the count at the eye.
@@ -42,7 +43,7 @@ class DepthCount {
  private:
   static constexpr int kPiece = 32;  ///< pixels
   struct Piece {
-    std::size_t firstRun = 0;          ///< that ends in it or after it
+    std::size_t firstRun = 0;              ///< that ends in it or after it
     double farthest = 0.0, nearest = 0.0;  ///< nearness of what the runs show; none above 0 where there are none
   };
   void look(std::span<const Run> runs, int y);

@@ -25,7 +25,11 @@ class ActiveList {
   };
   /// Takes patches for the rows [first, end). REQUIRES: outlived by `corners`.
   ActiveList(const Corners& corners, int first, int end, Order order = Order::leftToRight)
-      : corners_(corners), order_(order), first_(first), next_(first), buckets_(static_cast<std::size_t>(end - first)) {}
+      : corners_(corners),
+        order_(order),
+        first_(first),
+        next_(first),
+        buckets_(static_cast<std::size_t>(end - first)) {}
 
   /// REQUIRES: before the first moveTo(); the patch outlives this.
   void add(const Patch& patch);
@@ -38,7 +42,7 @@ class ActiveList {
   const Corners& corners_;
   Order order_;
   int first_;
-  int next_;  ///< the first row whose bucket is still full
+  int next_;                                       ///< the first row whose bucket is still full
   std::vector<std::vector<ActivePatch>> buckets_;  ///< per row: those that begin in it
   std::vector<Crossings> crossings_;
   std::vector<ActivePatch> active_;  ///< behind the first `crossed_` those that cover no pixel of this row
