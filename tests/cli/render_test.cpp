@@ -287,6 +287,18 @@ TEST_F(RenderCommand, WhoExtrudesChangesNoPixel) {
   }
 }
 
+// A side of every triangle is more than 8 bits count on the way; a silhouette's are not.
+TEST_F(RenderCommand, CountersThatSaturateLoseShadowsOfSingleTriangles) {
+  const auto compare = [&](const std::string& technique, const std::string& counter) {
+    return umbrage({"compare", "sample:courtyard", "--technique", technique, "--against", "ray_traced", "--volume-fill",
+                    "plain", "--stencil-counter", counter, "--size", "320x180"});
+  };
+  if (compare("zfail", "exact").code == 4) GTEST_SKIP() << "no graphics here";
+  EXPECT_EQ(compare("zfail", "saturate").code, 0);
+  EXPECT_EQ(compare("volumes_brute", "exact").code, 0);
+  EXPECT_EQ(compare("volumes_brute", "saturate").code, 1);
+}
+
 TEST_F(RenderCommand, CompareAgreesAndSaysSo) {
   const auto box = writeBox();
   const Ran ran = umbrage({"compare", box, "--ground", "--technique", "ray_traced", "--against", "ray_traced", "--size",

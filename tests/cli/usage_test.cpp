@@ -107,6 +107,7 @@ INSTANTIATE_TEST_SUITE_P(
         render("AntialiasZero", {"--antialias", "0"}, "--antialias"),
         render("ShowUnknown", {"--show", "volume"}, "volumes, silhouette"),
         render("ExtrudeUnknown", {"--extrude", "gpu"}, "cpu, vertex, geometry"),
+        render("StencilCounterUnknown", {"--stencil-counter", "clamp"}, "exact, wrap, saturate"),
         Wrong{"ShowWithoutPicture", {"render", "BOX", "--mask", "OUT", "--show", "volumes"}, "--show"},
         profile("ProfileStepZero", {"--step", "0"}, "--step"),
         profile("ProfileStepWord", {"--step", "often"}, "--step"),

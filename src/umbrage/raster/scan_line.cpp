@@ -13,8 +13,8 @@ void append(const Stretch& pixels, const Patch* surface, std::vector<Run>& out) 
     out.push_back({pixels, surface});
 }
 
-// By insertion: a list that is nearly sorted, as those of the row before are, takes hardly more than one look at each.
-void sort(std::span<ActivePatch> list) {
+// A list that is nearly sorted, as that of the row before is, takes hardly more than one look at each.
+void sortByInsertion(std::span<ActivePatch> list) {
   for (std::size_t i = 1; i < list.size(); ++i) {
     const ActivePatch moved = list[i];
     std::size_t j = i;
@@ -40,7 +40,12 @@ void ActiveList::moveTo(int y) {
   const auto crossed =
       std::stable_partition(active_.begin(), active_.end(), [](const ActivePatch& a) { return !a.covered.empty(); });
   crossed_ = static_cast<std::size_t>(crossed - active_.begin());
-  sort({active_.data(), crossed_});
+  if (order_ == Order::none) return;
+  if (y == first_)
+    std::sort(active_.begin(), crossed,
+              [](const ActivePatch& a, const ActivePatch& b) { return a.covered.begin < b.covered.begin; });
+  else
+    sortByInsertion({active_.data(), crossed_});
 }
 
 const VisibleRuns::Candidate& VisibleRuns::nearestAt(int x) const {

@@ -14,26 +14,35 @@ struct ActivePatch {
   std::size_t crossings = 0;  ///< for ActiveList
 };
 
-/// The patches that a scan line crosses, from left to right, kept up to date from row to row: those that begin in a row are taken out of
-/// its bucket, and those that have ended are dropped. Rows that follow each other are in nearly the same order, so sorting costs little.
+/// The patches that a scan line crosses, kept up to date from row to row: those that begin in a row are taken out of
+/// its bucket, and those that have ended are dropped.
 /// Source: C. Wylie, G. Romney, D. Evans and A. Erdahl, half-tone perspective drawings by computer, 1967; W. J. Bouknight, 1970.
 class ActiveList {
  public:
+  enum class Order {
+    leftToRight,  ///< by where they begin; rows that follow each other are in nearly the same order, so sorting costs little
+    none,
+  };
   /// Takes patches for the rows [first, end). REQUIRES: outlived by `corners`.
-  ActiveList(const Corners& corners, int first, int end)
-      : corners_(corners), first_(first), next_(first), buckets_(static_cast<std::size_t>(end - first)) {}
+  ActiveList(const Corners& corners, int first, int end, Order order = Order::leftToRight)
+      : corners_(corners),
+        order_(order),
+        first_(first),
+        next_(first),
+        buckets_(static_cast<std::size_t>(end - first)) {}
 
   /// REQUIRES: before the first moveTo(); the patch outlives this.
   void add(const Patch& patch);
   /// On to a row further down.
   void moveTo(int y);
-  /// Of the row: those that cover a pixel of it, by where they begin.
+  /// Of the row: those that cover a pixel of it.
   [[nodiscard]] std::span<const ActivePatch> row() const { return {active_.data(), crossed_}; }
 
  private:
   const Corners& corners_;
+  Order order_;
   int first_;
-  int next_;  ///< the first row whose bucket is still full
+  int next_;                                       ///< the first row whose bucket is still full
   std::vector<std::vector<ActivePatch>> buckets_;  ///< per row: those that begin in it
   std::vector<Crossings> crossings_;
   std::vector<ActivePatch> active_;  ///< behind the first `crossed_` those that cover no pixel of this row
@@ -52,7 +61,7 @@ struct Run {
 /// Source: G. Watkins, a real time visible surface algorithm, 1970; W. J. Bouknight and K. Kelley, 1970.
 class VisibleRuns {
  public:
-  /// Makes `out` the runs of row y, from left to right. `surfaces`: as ActiveList has them.
+  /// Makes `out` the runs of row y, from left to right. `surfaces`: as ActiveList has them, from left to right.
   void find(std::span<const ActivePatch> surfaces, int y, std::vector<Run>& out);
 
  private:

@@ -62,7 +62,7 @@ Stretch Crossings::covered(const Patch& patch, const Corners& corners, int y) co
   for (const Edge& edge : edges_) {
     // In pixels from centre to centre: what is covered begins at the first whole number above it, or ends there.
     const double at = edge.at0 + edge.perRow * (y + 0.5) - 0.5, next = std::ceil(at);
-    const bool left = at + edge.doubt < pixels.begin - 1.0, right = at - edge.doubt > pixels.end;
+    const bool left = at + edge.doubt<pixels.begin - 1.0, right = at - edge.doubt> pixels.end;
     if (left || right) {
       if (left != edge.begins) return {};
       continue;

@@ -1,6 +1,7 @@
 #include "umbrage/techniques/cpu/detail/scan_picture.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <variant>
 
 #include "umbrage/raster/surfaces.hpp"
@@ -21,6 +22,22 @@ ScanPicture::ScanPicture(std::shared_ptr<const shadow::Geometry> geometry)
     : geometry_(std::move(geometry)), casterOf_(geometry_->surfaces.triangles.size(), shadow::kNoTriangle) {
   const std::vector<std::uint32_t>& origin = geometry_->casters.surfaceTriangle;
   for (std::uint32_t t = 0; t < origin.size(); ++t) casterOf_[origin[t]] = t;
+}
+
+Result<shadow::Shading> ScanPicture::shade(const shadow::Frame& frame, const MaskMaker& maskOf) {
+  shadow::Shading out;
+  shadow::PhaseClock clock(out.stats.phases);
+  if (auto done = see(frame.camera); !done) return tl::unexpected(done.error());
+  auto seen = surface();
+  if (!seen) return tl::unexpected(seen.error());
+  out.surface = std::move(*seen);
+  clock.end("surface");
+  for (const scene::Light& light : frame.lights) {
+    auto mask = maskOf(light, out.stats, clock);
+    if (!mask) return tl::unexpected(mask.error());
+    out.masks.push_back(std::move(*mask));
+  }
+  return out;
 }
 
 Result<void> ScanPicture::see(const scene::Camera& camera) {

@@ -5,7 +5,6 @@
 
 #include "umbrage/raster/depth_count.hpp"
 #include "umbrage/raster/sides.hpp"
-#include "umbrage/shadow/phase_clock.hpp"
 #include "umbrage/techniques/cpu/detail/scan_picture.hpp"
 
 namespace umbrage::techniques::detail {
@@ -29,19 +28,9 @@ class Scanline final : public shadow::Technique {
 
   Result<shadow::Shading> shade(const shadow::Frame& frame) override {
     UMBRAGE_CHECK(picture_.has_value(), "shade() before prepare()");
-    shadow::Shading out;
-    shadow::PhaseClock clock(out.stats.phases);
-    if (auto done = picture_->see(frame.camera); !done) return tl::unexpected(done.error());
-    auto surface = picture_->surface();
-    if (!surface) return tl::unexpected(surface.error());
-    out.surface = std::move(*surface);
-    clock.end("surface");
-    for (const scene::Light& light : frame.lights) {
-      auto mask = shadowsOf(light, frame.silhouettes, out.stats, clock);
-      if (!mask) return tl::unexpected(mask.error());
-      out.masks.push_back(std::move(*mask));
-    }
-    return out;
+    return picture_->shade(frame, [&](const scene::Light& light, shadow::FrameStats& stats, shadow::PhaseClock& clock) {
+      return shadowsOf(light, frame.silhouettes, stats, clock);
+    });
   }
 
  private:
@@ -56,7 +45,7 @@ class Scanline final : public shadow::Technique {
     const int atEye = raster::countAtEye(casters, silhouette, space, corners);
     clock.end("sides");
     auto mask = picture_->paint(light, [&](int band, int first, int end) -> ScanPicture::RowShader {
-      auto active = std::make_shared<raster::ActiveList>(corners, first, end);
+      auto active = std::make_shared<raster::ActiveList>(corners, first, end, raster::ActiveList::Order::none);
       sides_.forEachIn(band, [&](const Patch& side, std::uint64_t) { active->add(side); });
       return [active, atEye, count = raster::DepthCount(space.width)](int y, std::span<const Run> runs,
                                                                       std::uint8_t* lit) mutable {

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "umbrage/raster/projected_edges.hpp"
-#include "umbrage/shadow/phase_clock.hpp"
 #include "umbrage/techniques/cpu/detail/scan_picture.hpp"
 #include "umbrage/techniques/cpu/detail/shadow_lists.hpp"
 
@@ -89,19 +88,9 @@ class ScanlineProjected final : public shadow::Technique {
 
   Result<shadow::Shading> shade(const shadow::Frame& frame) override {
     UMBRAGE_CHECK(picture_.has_value(), "shade() before prepare()");
-    shadow::Shading out;
-    shadow::PhaseClock clock(out.stats.phases);
-    if (auto done = picture_->see(frame.camera); !done) return tl::unexpected(done.error());
-    auto surface = picture_->surface();
-    if (!surface) return tl::unexpected(surface.error());
-    out.surface = std::move(*surface);
-    clock.end("surface");
-    for (const scene::Light& light : frame.lights) {
-      auto mask = shadowsOf(frame.camera, light, out.stats, clock);
-      if (!mask) return tl::unexpected(mask.error());
-      out.masks.push_back(std::move(*mask));
-    }
-    return out;
+    return picture_->shade(frame, [&](const scene::Light& light, shadow::FrameStats& stats, shadow::PhaseClock& clock) {
+      return shadowsOf(frame.camera, light, stats, clock);
+    });
   }
 
  private:

@@ -7,6 +7,7 @@
 
 #include "umbrage/raster/bands.hpp"
 #include "umbrage/raster/scan_line.hpp"
+#include "umbrage/shadow/phase_clock.hpp"
 #include "umbrage/shadow/technique.hpp"
 
 namespace umbrage::techniques::detail {
@@ -16,15 +17,18 @@ class ScanPicture {
  public:
   explicit ScanPicture(std::shared_ptr<const shadow::Geometry> geometry);
 
-  /// Finds the runs of a camera, for the calls that follow. Errors: ErrorCode::device when memory runs out.
-  [[nodiscard]] Result<void> see(const scene::Camera& camera);
-  [[nodiscard]] Result<shadow::SurfaceBuffer> surface() const;
+  /// Makes the mask of one light of the picture that is being shaded.
+  using MaskMaker =
+      std::function<Result<shadow::LightMask>(const scene::Light&, shadow::FrameStats&, shadow::PhaseClock&)>;
+  /// The picture of a frame, for which all else that follows then holds, and a mask for each of its lights.
+  /// Errors: ErrorCode::device when memory runs out; those of `maskOf`.
+  [[nodiscard]] Result<shadow::Shading> shade(const shadow::Frame& frame, const MaskMaker& maskOf);
 
   /// Sets the pixels of a row's runs, all of which face the light, that are lit to 255. Called for rows that have some.
   using RowShader = std::function<void(int y, std::span<const raster::Run> runs, std::uint8_t* lit)>;
   /// Called once for each band of rows, from several threads at once: makes what shades the rows [first, end), one after the other.
   using BandShader = std::function<RowShader(int band, int first, int end)>;
-  /// Errors: as see().
+  /// Errors: ErrorCode::device when memory runs out.
   [[nodiscard]] Result<shadow::LightMask> paint(const scene::Light& light, const BandShader& shader) const;
 
   [[nodiscard]] const shadow::Geometry& geometry() const { return *geometry_; }
@@ -36,6 +40,8 @@ class ScanPicture {
   [[nodiscard]] const std::vector<std::uint32_t>& casterOf() const { return casterOf_; }
 
  private:
+  [[nodiscard]] Result<void> see(const scene::Camera& camera);
+  [[nodiscard]] Result<shadow::SurfaceBuffer> surface() const;
   [[nodiscard]] Result<void> fillBands();
   void findRuns(int band);
   void darkenBeyondCone(const scene::Light& light, int y, std::span<const raster::Run> runs, std::uint8_t* lit) const;
