@@ -91,7 +91,7 @@ void addTechniqueOptions(CLI::App& app, TechniqueOptions& options) {
   addValue(
       app, "--map-bias", "C,S",
       "Shadow maps: how much nearer to the light a caster must be, in the depth of the map, and in the surface's slope "
-      "over a texel (default 0.00006,0.05)",
+      "over a texel (default 0.00006,0.25)",
       options.mapBias, parseBias, kTechniques);
 }
 

@@ -121,6 +121,7 @@ class MaskTechnique final : public GlTechnique {
     gl::PassState placement;
     placement.viewport = {0, 0, camera.width, camera.height};
     while (own_->lights.size() <= frame.lights.size()) own_->lights.emplace_back();
+    if (own_->quirks.readsStorageLate) gl::finish();  // the frame before may wait still
     for (const auto& done : {upload(own_->data, view, geometry_->surfaces.origin, camera, options),
                              own_->scene->arrangeFor(*geometry_, view, camera.width, camera.height),
                              target.needMasks(frame.lights.size())})

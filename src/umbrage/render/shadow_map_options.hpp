@@ -13,8 +13,8 @@ struct ShadowMapOptions {
   /// Of the depth of what a map shows: so much nearer to the light than the surface a caster must be.
   double constantBias = 1.0 / 16384.0;
   /// Likewise, in how much the surface's own depth changes from one texel to the next. The depth is compared with that of the surface's plane in the middle of
-  /// each texel, so that a flat surface needs almost none.
-  double slopeBias = 0.05;
+  /// each texel, so that flat surfaces need almost none; this is for curved ones and for concave edges.
+  double slopeBias = 0.25;
   std::uint64_t mostBytes = std::uint64_t{256}
                             << 20;  ///< of graphics memory for the map, when the number of texels is chosen
 };
