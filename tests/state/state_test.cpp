@@ -132,13 +132,13 @@ TEST_P(HostState, ComesBackFromGlassInTheHostsContext) {
     ASSERT_TRUE(technique->prepare(geometry));
     const shadow::Frame frame{.camera = camera(), .lights = lights, .soft = {.samples = 2}};
     const auto expected = technique->shade(frame);
-    ASSERT_TRUE(expected);
+    ASSERT_TRUE(expected) << expected.error().text();
     EXPECT_GT(expected->veils.veils.size(), 0u);
     auto target = render::GpuFrame::make(camera().width, camera().height);
     ASSERT_TRUE(target);
     demandBack([&] {
       const auto shading = technique->shade(frame);
-      ASSERT_TRUE(shading);
+      ASSERT_TRUE(shading) << shading.error().text();
       EXPECT_EQ(shading->surface.triangle, expected->surface.triangle);
       for (std::size_t i = 0; i < lights.size(); ++i) {
         EXPECT_EQ(shading->masks[i].tint, expected->masks[i].tint);
