@@ -12,6 +12,8 @@
 #include "umbrage/techniques/gl/registry.hpp"
 #include "umbrage/techniques/gl/shadow_map.hpp"
 #include "umbrage/techniques/gl/shadow_map_perspective.hpp"
+#include "umbrage/techniques/gl/soft.hpp"
+#include "umbrage/techniques/gl/transparent.hpp"
 #include "umbrage/techniques/gl/zfail.hpp"
 #include "umbrage/techniques/gl/zpass.hpp"
 
@@ -24,6 +26,16 @@ constexpr int kRounds = 40;
 
 scene::Scene boxes() {
   return scene::withGround(support::boxScene({{"tower", {0, 0, 0}, {1, 1, 4}}, {"slab", {-3, 2, 1}, {2, 3, 2}}}));
+}
+
+// The slab lets light through.
+scene::Scene glass() {
+  auto scene = boxes();
+  scene.materials.push_back({"glass", Vec3(0.3, 0.9, 0.5), 0.3});
+  auto mesh = std::make_shared<mesh::Mesh>(*scene.meshes[scene.instances[1].mesh]);
+  mesh->materials.assign(mesh->triangles.size(), static_cast<std::uint32_t>(scene.materials.size() - 1));
+  scene.meshes[scene.instances[1].mesh] = std::move(mesh);
+  return scene;
 }
 
 scene::Camera camera() {
@@ -125,8 +137,36 @@ TEST_P(HostState, ComesBackFromDrawingAPicture) {
   }
 }
 
+TEST_P(HostState, ComesBackFromGlassInTheHostsContext) {
+  const auto scene = glass();
+  const auto geometry = shadow::makeGeometry(scene);
+  ASSERT_FALSE(geometry->filters.empty());
+  const scene::Light lamp{scene::SphereLight{{3, -4, 6}, 0.3}};
+  const std::array lights{kSun, lamp};
+  for (const auto make : {techniques::makeTransparent, techniques::makeTransparentZFail, techniques::makeSoft}) {
+    const auto technique = make(nullptr, {});
+    ASSERT_TRUE(technique->prepare(geometry));
+    const shadow::Frame frame{.camera = camera(), .lights = lights, .soft = {.samples = 2}};
+    const auto expected = technique->shade(frame);
+    ASSERT_TRUE(expected) << expected.error().text();
+    EXPECT_GT(expected->veils.veils.size(), 0u);
+    auto target = render::GpuFrame::make(camera().width, camera().height);
+    ASSERT_TRUE(target);
+    demandBack([&] {
+      const auto shading = technique->shade(frame);
+      ASSERT_TRUE(shading) << shading.error().text();
+      EXPECT_EQ(shading->surface.triangle, expected->surface.triangle);
+      for (std::size_t i = 0; i < lights.size(); ++i) {
+        EXPECT_EQ(shading->masks[i].tint, expected->masks[i].tint);
+        EXPECT_EQ(shading->masks[i].veils, expected->masks[i].veils);
+      }
+      EXPECT_TRUE(technique->draw(*target, frame, {.materials = scene.materials}));
+    });
+  }
+}
+
 TEST_P(HostState, ComesBackFromRegisteredTechniquesInTheirOwnContext) {
-  const auto geometry = shadow::makeGeometry(boxes());
+  const auto geometry = shadow::makeGeometry(glass());
   for (const auto& entry : techniques::openGlTechniques()) {
     auto technique = entry.create();
     ASSERT_TRUE(technique) << technique.error().text();

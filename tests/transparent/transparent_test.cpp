@@ -9,6 +9,7 @@
 #include "umbrage/image/compare.hpp"
 #include "umbrage/shadow/composite.hpp"
 #include "umbrage/techniques/cpu/registry.hpp"
+#include "umbrage/techniques/gl/soft.hpp"
 #include "umbrage/techniques/gl/transparent.hpp"
 
 namespace umbrage::techniques {
@@ -50,7 +51,7 @@ class TransparentGl : public testing::Test {
 TEST_F(TransparentGl, PanesTakeTheirShareEach) {
   const auto mine = technique("transparent"), behind = technique("transparent_zfail");
   for (const double t : {0.02, 0.1, 0.5, 0.9, 0.98}) {
-    for (const int n : {1, 2, 3, 7, 16, 64}) {
+    for (const int n : {1, 3, 16, 64}) {
       Builder b;
       const auto ground = b.material(Vec3(0.8), 1.0), pane = b.material(Vec3(1.0), 1.0 - t);
       b.quad({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, ground);
@@ -146,6 +147,68 @@ TEST_F(TransparentGl, ZPassAndZFailAgreeToTheBit) {
   }
 }
 
+// What is drawn on the card is what is painted from the masks, veils over what lies behind them; soft light among them.
+TEST_F(TransparentGl, DrawsThePictureThatIsPaintedFromItsMasks) {
+  const auto scene = soup(600, 1.2, 5);
+  auto camera = cameraAt({-7, -6, 4}, {0.2, 0.1, -0.3});
+  auto lights = fourLights();
+  for (Light& light : lights) light.intensity = 0.4;
+  const auto geometry = shadow::makeGeometry(scene);
+  for (const auto make : {makeTransparent, makeTransparentZFail, makeSoft}) {
+    if (make == makeSoft) lights = {Light{scene::DiscLight{{3, -2, 6}, {-3, 2, -6}, 0.7}}, lights[1]};
+    for (const std::size_t count : {lights.size(), std::size_t{0}}) {
+      const auto technique = make(sharedContext(), {});
+      ASSERT_TRUE(technique->prepare(geometry));
+      const gl::CurrentContext current(sharedContext());
+      auto frame = render::GpuFrame::make(camera.width, camera.height);
+      ASSERT_TRUE(frame);
+      const shadow::Frame asked{.camera = camera, .lights = std::span(lights).first(count), .soft = {.samples = 16}};
+      ASSERT_TRUE(technique->draw(*frame, asked, {.materials = scene.materials}));
+      const auto shading = technique->shade(asked);
+      ASSERT_TRUE(shading);
+      const auto expected = shadow::composite(scene, geometry->surfaces, camera, *shading, asked.lights);
+      const gl::HostScope scope;
+      const auto picture = gl::readRgba(scope, frame->pictureTarget(), camera.width, camera.height);
+      image::RgbImage drawn(camera.width, camera.height);
+      for (std::size_t i = 0; i < drawn.size(); ++i) {
+        const auto p = picture.pixels()[i];
+        drawn.pixels()[i] = {p.r, p.g, p.b};
+      }
+      EXPECT_LE(image::compare(drawn, expected).largest, 2) << technique->traits().name << " " << count;
+    }
+  }
+}
+
+TEST_F(TransparentGl, EmptyScenesAndDegenerateTrianglesAreTaken) {
+  Builder empty;
+  empty.material(Vec3(0.5), 0.5);
+  Builder thin;
+  const auto glass = thin.material(Vec3(0.5, 1.0, 0.2), 0.4), ground = thin.material(Vec3(0.8), 1.0);
+  thin.triangle({0, 0, 1}, {1, 0, 1}, {2, 0, 1}, glass);
+  thin.quad({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, ground);
+  for (const auto* scene : {&empty.scene, &thin.scene})
+    for (const char* name : {"transparent", "transparent_zfail"})
+      EXPECT_EQ(shade(name, *scene, cameraAt({-2, -3, 5}, {0.1, 0.05, 0}, 32, 24), fourLights()).masks.size(), 4u);
+}
+
+// From there the corner has no direction, and the pane's own plane is seen edge-on.
+TEST_F(TransparentGl, AnEyeInACornerSeesTheRest) {
+  Builder b;
+  const auto ground = b.material(Vec3(0.8), 1.0), pane = b.material(Vec3(0.5, 1.0, 0.2), 0.4);
+  b.quad({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, ground);
+  b.quad({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, pane);
+  b.quad({0.3, 0.2, 0.5}, {0.4, 0, 0}, {0, 0.4, 0}, ground);
+  const std::vector<Light> lights{{scene::PointLight{{0.4, 0.3, 9}}}};
+  const auto camera = cameraAt({1, 1, 1}, {0.01, 0.5, -0.3});
+  const auto truth = shade("transparent_rays", b.scene, camera, lights);
+  for (const char* name : {"transparent", "transparent_zfail"}) {
+    const Compared c = compareAll(shade(name, b.scene, camera, lights), truth);
+    std::printf("%s: %zu with other surfaces, %zu off\n", name, c.otherVeils, c.off);
+    EXPECT_LE(c.off, 2u) << name;
+    EXPECT_LE(c.otherVeils, 2u) << name;
+  }
+}
+
 TEST_F(TransparentGl, SoupsAreAsRaysSeeThem) {
   const auto lights = fourLights();
   for (const auto& [count, size] : {std::pair<std::size_t, double>{300, 1.5}, {2000, 0.6}, {10000, 0.35}}) {
@@ -153,13 +216,12 @@ TEST_F(TransparentGl, SoupsAreAsRaysSeeThem) {
     for (const Vec3& eye : {Vec3(-7, -6, 4), Vec3(0.05, -0.1, 0.2)}) {
       const auto camera = cameraAt(eye, {0.2, 0.1, -0.3});
       const auto truth = shade("transparent_rays", scene, camera, lights);
-      for (const char* name : {"transparent", "transparent_zfail"}) {
-        const Compared c = compareAll(shade(name, scene, camera, lights), truth);
-        std::printf("%s, %zu triangles, eye %.1f: %zu pixels, %zu with other surfaces; of %zu surfaces %zu off\n", name, count,
-                    eye.x, c.pixels, c.otherVeils, c.surfaces, c.off);
-        EXPECT_LE(c.otherVeils, c.pixels / 100);
-        EXPECT_LE(c.off, c.surfaces / 100);
-      }
+      const Compared c = compareAll(shade("transparent", scene, camera, lights), truth);
+      std::printf("%zu triangles, eye %.1f: %zu pixels, %zu with other surfaces; of %zu surfaces %zu off\n", count, eye.x, c.pixels,
+                  c.otherVeils, c.surfaces, c.off);
+      // Where surfaces cut each other, which is nearer is rounded to single precision.
+      EXPECT_LE(c.otherVeils, c.pixels / 500);
+      EXPECT_LE(c.off, c.surfaces / 10000);
     }
   }
 }

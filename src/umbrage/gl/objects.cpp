@@ -77,8 +77,8 @@ Result<void> Buffer::allocate(std::size_t bytes, const std::byte* contents) {
 }
 
 void Buffer::clear() {
-  const GLuint zero = 0;
-  glClearNamedBufferData(handle_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+  // A value of ours would be fetched as a host's unpacking of pixels says; none stands for zeros.
+  glClearNamedBufferData(handle_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
 }
 
 void Buffer::read(std::span<std::byte> out) const {

@@ -33,20 +33,20 @@ layout(location = 0) out vec2 squaresAndCount;
 
 float squareAt(uint place) {
   vec4 a = halves[place], b = halves[uint(surfaces) + place];
-  if (a.w <= 0.0 || b.w <= 0.0) return 0.0;
   float apart = dot(a.rgb / a.w - b.rgb / b.w, vec3(0.2126, 0.7152, 0.0722)) / 2.0;
-  return apart * apart;
+  return a.w > 0.0 && b.w > 0.0 ? apart * apart : 0.0;
 }
 
 void main() {
   ivec2 size = textureSize(ids, 0), corner = ivec2(gl_FragCoord.xy) * kTile, end = min(corner + kTile, size);
-  squaresAndCount = vec2(0.0);
+  vec2 sum = vec2(0.0);
   for (int y = corner.y; y < end.y; ++y)
     for (int x = corner.x; x < end.x; ++x) {
       uint place = uint(y * size.x + x);
-      if (texelFetch(ids, ivec2(x, y), 0).r != kNone) squaresAndCount += vec2(squareAt(place), 1.0);
+      if (texelFetch(ids, ivec2(x, y), 0).r != kNone) sum += vec2(squareAt(place), 1.0);
       if (hasVeils == 0) continue;
       for (uint k = pixel[place].x, last = k + pixel[place].y; k < last; ++k)
-        squaresAndCount += vec2(squareAt(uint(pixelCount) + k), 1.0);
+        sum += vec2(squareAt(uint(pixelCount) + k), 1.0);
     }
+  squaresAndCount = sum;
 }
