@@ -39,6 +39,7 @@ struct Face {
   std::uint32_t triangle = kNoTriangle;
   Vec3 normal{0.0};
   const scene::Material* material = nullptr;
+  Vec3 passing{0.0};  ///< what the material lets through
 };
 
 std::vector<PreparedLight> prepare(std::span<const scene::Light> lights, const Vec3& origin) {
@@ -98,7 +99,8 @@ class Painter {
   [[nodiscard]] Vec3 ray(int x, int y) const { return rays_.through(x + 0.5, y + 0.5); }
   void turnTo(std::uint32_t triangle, Face& face) const {
     if (triangle == face.triangle) return;
-    face = {triangle, glm::normalize(surfaces_.normal(triangle)), &scene_.materials[surfaces_.materials[triangle]]};
+    const scene::Material& material = scene_.materials[surfaces_.materials[triangle]];
+    face = {triangle, glm::normalize(surfaces_.normal(triangle)), &material, scene::transmittance(material)};
   }
   /// Linear; `reach(i)`: what of light i gets there.
   template <class Reach>
@@ -133,14 +135,15 @@ class Painter {
   const CompositeOptions& options_;
 };
 
-// The veils of a pixel, the farthest first, each over what is behind it.
+// The veils of a pixel, the farthest first, each over what is behind it. `faces`: those of the pixel before, which mostly shows the same.
 Vec3 veiled(Vec3 behind, const Painter& painter, const Vec3& ray, std::span<const Veil> veils, std::size_t first,
-            std::span<const LightMask> masks) {
+            std::span<const LightMask> masks, std::vector<Face>& faces) {
+  if (faces.size() < veils.size()) faces.resize(veils.size());
   for (std::size_t k = veils.size(); k-- > 0;) {
-    Face face;
+    Face& face = faces[k];
     painter.turnTo(veils[k].triangle, face);
     const Vec3 own = painter.colour(face, ray, veils[k].depth, [&](std::size_t i) { return partsOf(masks[i].veils[first + k]); });
-    behind = scene::transmittance(*face.material) * behind + face.material->opacity * own;
+    behind = face.passing * behind + face.material->opacity * own;
   }
   return behind;
 }
@@ -158,6 +161,7 @@ image::RgbImage paint(const scene::Scene& scene, const scene::Surfaces& surfaces
   image::RgbImage picture(camera.width, camera.height, background);
   const auto shadeRow = [&](int y) {
     Face face;
+    std::vector<Face> faces;
     for (int x = 0; x < camera.width; ++x) {
       const std::uint32_t t = seen.triangle(x, y);
       const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(x);
@@ -169,7 +173,7 @@ image::RgbImage paint(const scene::Scene& scene, const scene::Surfaces& surfaces
         painter.turnTo(t, face);
         colour = painter.colour(face, ray, seen.depth(x, y), [&](std::size_t i) { return maskValue(masks[i], x, y); });
       }
-      if (!before.empty()) colour = veiled(colour, painter, ray, before, veils.first[pixel], masks);
+      if (!before.empty()) colour = veiled(colour, painter, ray, before, veils.first[pixel], masks, faces);
       picture(x, y) = encode(colour);
     }
   };
