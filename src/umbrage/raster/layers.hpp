@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "umbrage/image/image.hpp"
 #include "umbrage/raster/blocks.hpp"
 
 namespace umbrage::raster {
@@ -20,7 +21,7 @@ struct alignas(64) Layer {
 struct VeilLayers {
   int columns = 0, rows = 0;       ///< of blocks
   std::vector<std::size_t> first;  ///< per block: its first layer; one more
-  std::vector<Layer> layers;
+  image::UnsetVector<Layer> layers;
 
   [[nodiscard]] std::size_t index(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);

@@ -72,12 +72,14 @@ Result<void> ReceiverDepths::find(const BlockImage<float>& nearness, std::span<c
 }
 
 Result<void> ReceiverDepths::find(const BlockImage<float>& nearness, const VeilLayers& veils,
-                                  std::span<const std::uint64_t> receivers) {
+                                  std::span<const std::uint64_t> receivers, std::vector<Depths>& ofSurface) {
+  ofSurface.resize(veils.surfaceCount());
   return findAll(nearness.columns, nearness.rows, [&](std::size_t block) {
     const std::size_t surface = veils.surface(block);
-    Depths all = depthsOf(nearness.blocks[block].pixel.data(), receivers[surface]);
+    Depths all = ofSurface[surface] = depthsOf(nearness.blocks[block].pixel.data(), receivers[surface]);
     for (std::size_t l = 0; l < veils.count(block); ++l) {
-      const Depths depths = depthsOf(veils.layers[veils.first[block] + l].nearness.data(), receivers[surface + 1 + l]);
+      const Depths depths = ofSurface[surface + 1 + l] =
+          depthsOf(veils.layers[veils.first[block] + l].nearness.data(), receivers[surface + 1 + l]);
       all = {std::min(all.farthest, depths.farthest), std::max(all.nearest, depths.nearest)};
     }
     return all;

@@ -19,9 +19,13 @@ class ReceiverDepths {
   /// Errors: ErrorCode::device when memory runs out.
   [[nodiscard]] Result<void> find(const BlockImage<float>& nearness, std::span<const std::uint64_t> receivers);
 
-  /// The same with veils: `receivers` per surface, as VeilLayers numbers them.
+  /// Nearness of a block's farthest and nearest receiver.
+  struct Depths {
+    float farthest = kNothing, nearest = 0.0f;
+  };
+  /// The same with veils: `receivers` and `ofSurface` per surface, as VeilLayers numbers them.
   [[nodiscard]] Result<void> find(const BlockImage<float>& nearness, const VeilLayers& veils,
-                                  std::span<const std::uint64_t> receivers);
+                                  std::span<const std::uint64_t> receivers, std::vector<Depths>& ofSurface);
 
   /// Of a row of blocks, in whole groups of eight and one more: nearness of the farthest, and of the nearest, receiver of each.
   [[nodiscard]] const float* farthest(int row) const { return farthest_.data() + start(row); }
@@ -35,10 +39,6 @@ class ReceiverDepths {
  private:
   [[nodiscard]] std::size_t start(int row) const { return static_cast<std::size_t>(row) * stride_; }
   void findTiles(int row, int rows);
-  /// Nearness of a block's farthest and nearest receiver.
-  struct Depths {
-    float farthest = kNothing, nearest = 0.0f;
-  };
   [[nodiscard]] static Depths depthsOf(const float* nearness, std::uint64_t receivers);
   [[nodiscard]] Result<void> findAll(int columns, int rows,
                                      const std::function<Depths(std::size_t block)>& depthsOfBlock);

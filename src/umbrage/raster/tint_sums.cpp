@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 
 #include "umbrage/raster/side_blocks.hpp"
 #include "umbrage/raster/sides.hpp"
@@ -32,35 +33,75 @@ Weight weightOf(const TintSums::Request& request, const shadow::CasterSet& caste
 }
 
 /// The surfaces of a block, the opaque one first.
+///
+/// A side before a surface is before those behind it, too. So it adds to the first that it is before alone, and when all sides are through,
+/// each surface has the sum of all before it: what costs is the number of sides, hardly that of layers.
 struct BlockSurfaces {
   const Layer* veils;
   const float* opaqueNearness;
   const std::uint32_t* opaqueTriangle;
   std::span<const std::uint64_t> receivers;
+  const ReceiverDepths::Depths* depths;
   TintField::Sums* sums;
-  std::uint8_t* parted;
+  std::uint32_t* source;
+  std::uint32_t first;  ///< the place of the first of `sums` in the field
 
   [[nodiscard]] std::size_t count() const { return receivers.size(); }
+  /// The i-th from the eye: veils, then what is opaque.
+  [[nodiscard]] std::size_t fromEye(std::size_t i) const { return i + 1 < count() ? i + 1 : 0; }
+  /// From the eye on: the first surface with receivers that the patch may be before, and the end of those among which it lies or that are the first behind
+  /// it. Beyond doubt it is behind all receivers of the surfaces before that; before all of those from there on, if any.
+  UMBRAGE_IN_BLOCKS Span layersAt(const BlockPatch& p) const {
+    const float plane = lanesOf<float>(p.at)[3], doubt = lanesOf<float>(p.doubt)[3];
+    const float nearest = plane + lanesOf<float>(p.above)[3] + doubt,
+                farthest = plane + lanesOf<float>(p.below)[3] - doubt;
+    const int end = static_cast<int>(count());
+    int begin = 0;
+    while (begin < end && (receivers[fromEye(static_cast<std::size_t>(begin))] == 0 ||
+                           nearest < depths[fromEye(static_cast<std::size_t>(begin))].farthest * p.distance))
+      ++begin;
+    for (int i = begin; i < end; ++i) {
+      const std::size_t l = fromEye(static_cast<std::size_t>(i));
+      if (receivers[l] == ~std::uint64_t{0} && farthest > depths[l].nearest * (p.distance * (1.0f + 0x1p-20f)))
+        return {begin, i + 1};
+    }
+    return {begin, end};
+  }
   [[nodiscard]] const float* nearness(std::size_t l) const {
     return l == 0 ? opaqueNearness : veils[l - 1].nearness.data();
   }
   [[nodiscard]] std::uint32_t triangle(std::size_t l, std::size_t pixel) const {
     return l == 0 ? opaqueTriangle[pixel] : veils[l - 1].triangle[pixel];
   }
-  /// Before something is added to pixels of those that are asked for.
-  void part() const {
-    for (std::size_t l = 0; l < count(); ++l) {
-      if (receivers[l] == 0 || parted[l] != 0) continue;
-      parted[l] = 1;
+  /// The sums of a surface, to add to.
+  [[nodiscard]] TintField::Sums& sumsOf(std::size_t l) const {
+    if (source[l] == TintField::kWhole) {
+      source[l] = first + static_cast<std::uint32_t>(l);
       for (auto& channel : sums[l].channel) channel.fill(0);
+    }
+    return sums[l];
+  }
+  /// When all sides are through.
+  void sumUp() const {
+    std::uint32_t before = TintField::kWhole;
+    for (std::size_t i = 0; i < count(); ++i) {
+      const std::size_t l = fromEye(i);
+      if (source[l] == TintField::kWhole) {
+        source[l] = before;
+        continue;
+      }
+      if (before != TintField::kWhole)
+        for (std::size_t c = 0; c < kChannels; ++c)
+          for (std::size_t k = 0; k < kBlock * kBlock; ++k) sums[l].channel[c][k] += sums[before - first].channel[c][k];
+      before = source[l];
     }
   }
 };
 
-// Adds where the patch covers a pixel and is nearer than a layer's surface there. Leaves alone those pixels where single precision cannot tell,
-// and says whether there are any.
+// Adds where the patch covers a pixel, to the first layer whose surface there it is nearer than for sure. Says whether there are pixels where single
+// precision cannot tell for a layer before that.
 template <std::size_t kUsed>
-UMBRAGE_IN_BLOCKS bool sumInBlock(const BlockPatch& p, const Span& rows, const Weight& weight,
+UMBRAGE_IN_BLOCKS bool sumInBlock(const BlockPatch& p, const Span& rows, const Span& layers, const Weight& weight,
                                   const BlockSurfaces& block) {
   const Float8 lane{0, 1, 2, 3, 4, 5, 6, 7};
   Float8 f[4];
@@ -69,14 +110,19 @@ UMBRAGE_IN_BLOCKS bool sumInBlock(const BlockPatch& p, const Span& rows, const W
   for (int row = rows.begin; row < rows.end; ++row) {
     Int8 in = f[0] > p.doubt[0], maybeIn = f[0] > -p.doubt[0];
     for (int k = 1; k < 3; ++k) in &= f[k] > p.doubt[k], maybeIn &= f[k] > -p.doubt[k];
-    for (std::size_t l = 0; l < block.count(); ++l) {
+    Int8 left = maybeIn;
+    for (int i = layers.begin; i < layers.end && anyOf(left); ++i) {
+      const std::size_t l = block.fromEye(static_cast<std::size_t>(i));
       if (block.receivers[l] == 0) continue;
       const Float8 nearness = reinterpret_cast<const Float8&>(block.nearness(l)[row * kBlock]);
       const Float8 before = f[3] - nearness * p.distance;
-      const Int8 sure = in & (before > p.doubt[3]);
-      unsure |= (maybeIn & (before > -p.doubt[3])) ^ sure;
+      const Int8 sure = left & in & (before > p.doubt[3]);
+      unsure |= (left & (before > -p.doubt[3])) ^ sure;
+      if (!anyOf(sure)) continue;
+      left &= ~sure;
+      TintField::Sums& sums = block.sumsOf(l);
       for (std::size_t c = 0; c < kUsed; ++c)
-        reinterpret_cast<Int8&>(block.sums[l].channel[weight.used[c]][static_cast<std::size_t>(row * kBlock)]) +=
+        reinterpret_cast<Int8&>(sums.channel[weight.used[c]][static_cast<std::size_t>(row * kBlock)]) +=
             sure & weight.of[weight.used[c]];
     }
     for (int k = 0; k < 4; ++k) f[k] += p.dy[k];
@@ -87,11 +133,12 @@ UMBRAGE_IN_BLOCKS bool sumInBlock(const BlockPatch& p, const Span& rows, const W
 /// One thread's work on a band.
 class BandSums {
  public:
-  BandSums(const TintSums::Request& request, const Corners& corners, const ReceiverDepths& depths, int band,
-           TintField& out)
+  BandSums(const TintSums::Request& request, const Corners& corners, const ReceiverDepths& depths,
+           const std::vector<ReceiverDepths::Depths>& ofSurface, int band, TintField& out)
       : request_(request),
         corners_(corners),
         depths_(depths),
+        ofSurface_(ofSurface),
         out_(out),
         first_(band * kBandBlocks),
         last_(std::min(first_ + kBandBlocks, request.veils.rows)) {
@@ -114,6 +161,7 @@ class BandSums {
         const std::size_t at = local(column, row);
         whole.opaque += whole_[0][at];
         for (std::size_t k = 0; k < 3; ++k) whole.filter[k] += whole_[k + 1][at];
+        surfacesAt(column, row).sumUp();
       }
   }
 
@@ -128,8 +176,10 @@ class BandSums {
             request_.seen.nearness.blocks[block].pixel.data(),
             request_.seen.triangle.blocks[block].pixel.data(),
             request_.receivers.subspan(surface, 1 + veils.count(block)),
+            ofSurface_.data() + surface,
             out_.sums.data() + surface,
-            out_.parted.data() + surface};
+            out_.source.data() + surface,
+            static_cast<std::uint32_t>(surface)};
   }
 
   template <std::size_t kUsed>
@@ -150,39 +200,64 @@ class BandSums {
       BlockPatch here = p;
       here.doubt[3] += 0x1p-20f * p.distance * nearest[further];
       const BlockSurfaces block = surfacesAt(column + further, row);
-      block.part();
-      if (sumInBlock<kUsed>(here, rows, weight, block))
-        sumUnsure(patch, here, rows, weight, block, column + further, row);
+      const Span layers = block.layersAt(here);
+      if (layers.begin < layers.end && sumInBlock<kUsed>(here, rows, layers, weight, block))
+        sumUnsure(patch, here, rows, layers, weight, block, column + further, row);
     }
   }
 
-  // The pixels that sumInBlock left alone.
-  [[gnu::noinline]] void sumUnsure(const Patch& patch, const BlockPatch& p, const Span& rows, const Weight& weight,
-                                   const BlockSurfaces& block, int column, int row) {
-    for (std::size_t l = 0; l < block.count(); ++l) {
-      for (std::uint64_t left = block.receivers[l]; left != 0; left &= left - 1) {
-        const int bit = std::countr_zero(left), x = bit % kBlock, y = bit / kBlock;
-        if (y < rows.begin || y >= rows.end) continue;
-        const auto k = static_cast<std::size_t>(bit);
-        const float before = valueAt(p, rows, 3, x, y) - block.nearness(l)[k] * p.distance;
-        bool sure = before > p.doubt[3], maybe = before > -p.doubt[3];
+  // Where sumInBlock could not tell.
+  [[gnu::noinline]] void sumUnsure(const Patch& patch, const BlockPatch& p, const Span& rows, const Span& layers,
+                                   const Weight& weight, const BlockSurfaces& block, int column, int row) {
+    for (int y = rows.begin; y < rows.end; ++y)
+      for (int x = 0; x < kBlock; ++x) {
+        bool in = true, maybeIn = true;
         for (int e = 0; e < 3; ++e) {
           const float edge = valueAt(p, rows, e, x, y);
-          sure = sure && edge > p.doubt[e], maybe = maybe && edge > -p.doubt[e];
+          in = in && edge > p.doubt[e], maybeIn = maybeIn && edge > -p.doubt[e];
         }
-        const int px = kBlock * column + x, py = kBlock * row + y;
-        if (!maybe || sure || !patch.covers(corners_, px, py) ||
-            !isBefore(corners_, patch, request_.triangles[block.triangle(l, k)], px, py))
-          continue;
-        for (std::size_t c = 0; c < weight.usedCount; ++c)
-          block.sums[l].channel[weight.used[c]][k] += weight.of[weight.used[c]];
+        if (maybeIn)
+          sumUnsureAt(patch, p, rows, layers, weight, block, {x, y, kBlock * column + x, kBlock * row + y, in});
       }
+  }
+  struct UnsurePixel {
+    int x, y;        ///< of the block
+    int px, py;      ///< of the picture
+    bool isCovered;  ///< by the patch, for sure
+  };
+  // Surfaces that nearly coincide may lie in another order than their depths say. So each is asked about, and adds what it has more than that
+  // before it.
+  void sumUnsureAt(const Patch& patch, const BlockPatch& p, const Span& rows, const Span& layers, const Weight& weight,
+                   const BlockSurfaces& block, const UnsurePixel& at) {
+    const auto k = static_cast<std::size_t>(at.y * kBlock + at.x);
+    std::optional<bool> covered;
+    int last = 0;  // whether it is before the layer before
+    for (int i = layers.begin; i < layers.end; ++i) {
+      const std::size_t l = block.fromEye(static_cast<std::size_t>(i));
+      if (block.receivers[l] == 0) continue;
+      const float before = valueAt(p, rows, 3, at.x, at.y) - block.nearness(l)[k] * p.distance;
+      const bool sure = at.isCovered && before > p.doubt[3], maybe = before > -p.doubt[3];
+      if (!sure && (block.receivers[l] >> k & 1u) == 0) continue;
+      int here = sure ? 1 : 0;
+      if (!sure && maybe) {
+        if (!covered) covered = patch.covers(corners_, at.px, at.py);
+        here = *covered && isBefore(corners_, patch, request_.triangles[block.triangle(l, k)], at.px, at.py) ? 1 : 0;
+      }
+      // The first sure one was added to as if there were none before.
+      if (const int more = sure ? -last : here - last; more != 0) {
+        TintField::Sums& sums = block.sumsOf(l);
+        for (std::size_t c = 0; c < weight.usedCount; ++c)
+          sums.channel[weight.used[c]][k] += more * weight.of[weight.used[c]];
+      }
+      if (sure) return;
+      last = here;
     }
   }
 
   const TintSums::Request& request_;
   const Corners& corners_;
   const ReceiverDepths& depths_;
+  const std::vector<ReceiverDepths::Depths>& ofSurface_;
   TintField& out_;
   int first_, last_;
   std::array<std::vector<std::int32_t>, kChannels> whole_;
@@ -210,7 +285,7 @@ Result<void> TintSums::find(const Request& request, TintField& out) {
   const PixelSpace& space = request.space;
   const shadow::TintedSilhouette& silhouette = request.silhouette;
   const Corners corners{request.positions.mapped, space.map(silhouette.light)};
-  if (auto done = depths_.find(request.seen.nearness, request.veils, request.receivers); !done) return done;
+  if (auto done = depths_.find(request.seen.nearness, request.veils, request.receivers, ofSurface_); !done) return done;
   const SideMaker makeSide(space, corners, casters_, silhouette.light, request.room);
   const std::size_t sides = silhouette.edges.size();
   const auto make = [&](std::size_t i, Patch& patch) {
@@ -228,10 +303,10 @@ Result<void> TintSums::find(const Request& request, TintField& out) {
     for (std::size_t k = 0; k < 3; ++k) atEye_.filter[k] += sign * request.filters.of(surface)[k];
   });
   out.whole.resize(request.veils.first.size() - 1);
-  out.parted.assign(request.veils.surfaceCount(), 0);
+  out.source.assign(request.veils.surfaceCount(), TintField::kWhole);
   if (out.sums.size() < request.veils.surfaceCount()) out.sums.resize(request.veils.surfaceCount());
   return parallel::forEach(bands_.count(), [&](int band) {
-    BandSums sums(request, corners, depths_, band, out);
+    BandSums sums(request, corners, depths_, ofSurface_, band, out);
     bands_.forEachIn(band, [&](const Patch& patch, std::uint64_t tiles) {
       addPatchOf(sums, patch, weightOf(request, casters_, patch), tiles);
     });

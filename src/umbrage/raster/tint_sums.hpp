@@ -27,17 +27,19 @@ class TintField {
   [[nodiscard]] TintSum at(std::size_t block, std::size_t surface, std::size_t pixel) const {
     TintSum sum = whole[block];
     if (isWhole(surface)) return sum;
-    const auto& more = sums[surface].channel;
+    const auto& more = sums[source[surface]].channel;
     sum.opaque += more[0][pixel];
     for (std::size_t k = 0; k < 3; ++k) sum.filter[k] += more[k + 1][pixel];
     return sum;
   }
   /// The same for all pixels of a surface.
-  [[nodiscard]] bool isWhole(std::size_t surface) const { return parted[surface] == 0; }
+  [[nodiscard]] bool isWhole(std::size_t surface) const { return source[surface] == kWhole; }
 
-  std::vector<TintSum> whole;        ///< per block: of all its pixels
-  std::vector<std::uint8_t> parted;  ///< per surface: not all its pixels have the same
-  std::vector<Sums> sums;            ///< per surface; where it is parted: what comes to `whole`
+  static constexpr std::uint32_t kWhole = ~std::uint32_t{0};
+  std::vector<TintSum> whole;  ///< per block: of all its pixels
+  std::vector<std::uint32_t>
+      source;  ///< per surface: the place in `sums` of what comes to `whole`, which surfaces that no side separates share; kWhole: nothing
+  std::vector<Sums> sums;  ///< at most one a surface
 };
 
 /// Sums up, for every surface of every pixel, what lies between its surface and the light: shadow volumes by z-pass, as ShadowCount does it, of casters that
@@ -73,6 +75,7 @@ class TintSums {
  private:
   const shadow::CasterSet& casters_;
   ReceiverDepths depths_;
+  std::vector<ReceiverDepths::Depths> ofSurface_;
   Bands bands_;
   TintSum atEye_;
 };

@@ -98,19 +98,20 @@ UMBRAGE_VECTOR_UNITS void drawVeil(BandVeils& band, const Patch& patch) {
   }
 }
 
-bool isNearer(const shadow::Veil& a, const shadow::Veil& b) {
-  return a.depth < b.depth || (a.depth == b.depth && a.triangle < b.triangle);
+/// By depth, then by triangle: depths are above 0, and such numbers are in the order of their bits.
+std::uint64_t orderOf(const shadow::Veil& veil) {
+  return std::uint64_t{std::bit_cast<std::uint32_t>(veil.depth)} << 32 | veil.triangle;
 }
 
 // Mostly a handful.
 void sortFew(std::span<shadow::Veil> veils) {
   constexpr std::size_t kFew = 16;
   if (veils.size() > kFew) {
-    std::ranges::sort(veils, isNearer);
+    std::ranges::sort(veils, {}, [](const shadow::Veil& veil) { return orderOf(veil); });  // a lambda is inlined
     return;
   }
   for (std::size_t i = 1; i < veils.size(); ++i)
-    for (std::size_t k = i; k > 0 && isNearer(veils[k], veils[k - 1]); --k) std::swap(veils[k], veils[k - 1]);
+    for (std::size_t k = i; k > 0 && orderOf(veils[k]) < orderOf(veils[k - 1]); --k) std::swap(veils[k], veils[k - 1]);
 }
 
 // Puts a band's fragments where they belong. `first`: per pixel of the band, and one more.

@@ -35,15 +35,16 @@ Vec3 maskValue(const LightMask& mask, int x, int y) {
   return partsOf(mask.tint(x, y));
 }
 
-// The veils of a pixel, the farthest first, each over what is behind it.
+// The veils of a pixel, the farthest first, each over what is behind it. `faces`: those of the pixel before, which mostly shows the same.
 Vec3 veiled(Vec3 behind, const Painter& painter, const Vec3& eye, const Vec3& ray, std::span<const Veil> veils,
-            std::size_t first, std::span<const LightMask> masks) {
+            std::size_t first, std::span<const LightMask> masks, std::vector<Face>& faces) {
+  if (faces.size() < veils.size()) faces.resize(veils.size());
   for (std::size_t k = veils.size(); k-- > 0;) {
-    Face face;
+    Face& face = faces[k];
     painter.turnTo(veils[k].triangle, face);
     const Vec3 own = painter.colour(face, eye + double(veils[k].depth) * ray, ray,
                                     [&](std::size_t i) { return partsOf(masks[i].veils[first + k]); });
-    behind = scene::transmittance(*face.material) * behind + face.material->opacity * own;
+    behind = face.passing * behind + face.material->opacity * own;
   }
   return behind;
 }
@@ -63,6 +64,7 @@ image::RgbImage paint(const scene::Scene& scene, const scene::Surfaces& surfaces
   image::RgbImage picture(camera.width, camera.height, background);
   const auto shadeRow = [&](int y) {
     Face face;
+    std::vector<Face> faces;
     for (int x = 0; x < camera.width; ++x) {
       const std::uint32_t t = seen.triangle(x, y);
       const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(x);
@@ -74,7 +76,7 @@ image::RgbImage paint(const scene::Scene& scene, const scene::Surfaces& surfaces
         painter.turnTo(t, face);
         colour = painter.colour(face, eye + double(seen.depth(x, y)) * ray, ray, [&](std::size_t i) { return maskValue(masks[i], x, y); });
       }
-      if (!before.empty()) colour = veiled(colour, painter, eye, ray, before, veils.first[pixel], masks);
+      if (!before.empty()) colour = veiled(colour, painter, eye, ray, before, veils.first[pixel], masks, faces);
       picture(x, y) = encode(colour);
     }
   };

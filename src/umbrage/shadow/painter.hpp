@@ -14,6 +14,7 @@ struct Face {
   std::uint32_t triangle = kNoTriangle;
   Vec3 normal{0.0};  ///< unit, of either side
   const scene::Material* material = nullptr;
+  Vec3 passing{0.0};  ///< what the material lets through
 };
 
 /// How a surface is turned where it is looked at.
@@ -31,7 +32,8 @@ class Painter {
 
   void turnTo(std::uint32_t triangle, Face& face) const {
     if (triangle == face.triangle) return;
-    face = {triangle, glm::normalize(surfaces_.normal(triangle)), &scene_.materials[surfaces_.materials[triangle]]};
+    const scene::Material& material = scene_.materials[surfaces_.materials[triangle]];
+    face = {triangle, glm::normalize(surfaces_.normal(triangle)), &material, scene::transmittance(material)};
   }
   /// `point`, relative to the origin of the surfaces, seen along `ray`.
   [[nodiscard]] Facing facing(const Face& face, const Vec3& point, const Vec3& ray) const {

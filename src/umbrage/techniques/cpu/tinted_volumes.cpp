@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "umbrage/math/predicates.hpp"
+#include "umbrage/shadow/veil_layers.hpp"
 #include "umbrage/trace/occlusion.hpp"
 
 namespace umbrage::techniques::detail {
@@ -22,11 +23,11 @@ TintedVolumes::TintedVolumes(std::shared_ptr<const shadow::Geometry> geometry)
 
 Result<void> TintedVolumes::see(const scene::Camera& camera, std::optional<int> veilLayers, shadow::VeilBuffer& veils) {
   const scene::Surfaces& surfaces = geometry_->surfaces;
-  litLayers_ = veilLayers ? static_cast<std::size_t>(std::max(0, *veilLayers)) : ~std::size_t{0};
   space_ = raster::pixelSpace(camera, surfaces.origin, surfaces.bounds.radius(), surfaces.positions);
   if (auto done = raster::mapPositions(space_, surfaces.positions, positions_); !done) return done;
   if (auto done = surfaces_.draw(space_, positions_, seen_); !done) return done;
   if (auto done = veils_.draw(space_, positions_, seen_, veils); !done) return done;
+  litLayers_ = shadow::litVeilLayers(veilLayers, veils, geometry_->filters);
   if (auto done = raster::layersOf(space_, veils, litLayers_, layers_); !done) return done;
   const shadow::CasterSet& casters = geometry_->casters;
   eyeSide_.assign(casters.triangles.size(), 0);

@@ -3,6 +3,7 @@
 
 #include "umbrage/parallel/for_each.hpp"
 #include "umbrage/shadow/phase_clock.hpp"
+#include "umbrage/shadow/veil_layers.hpp"
 #include "umbrage/techniques/cpu/detail/facing_memo.hpp"
 #include "umbrage/techniques/cpu/detail/transparent_rays.hpp"
 #include "umbrage/trace/transmission.hpp"
@@ -118,8 +119,7 @@ Result<shadow::LightMask> TransparentRays::maskOf(const shadow::Frame& frame, co
   shadow::LightMask mask{
       {width, height}, {width, height}, {width, height}, image::UnsetVector<shadow::Tint>(seen.veils.veils.size())};
   Reach reach(*rays_, frame.camera, light);
-  const std::size_t most =
-      frame.veilLayers ? static_cast<std::size_t>(std::max(0, *frame.veilLayers)) : ~std::size_t{0};
+  const std::size_t most = shadow::litVeilLayers(frame.veilLayers, seen.veils, rays_->geometry().filters);
   auto done = parallel::forEach(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const std::uint32_t triangle = seen.surface.triangle(x, y);

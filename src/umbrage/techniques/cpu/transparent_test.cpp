@@ -5,6 +5,8 @@
 #include <random>
 
 #include "support/veil_scenes.hpp"
+#include "umbrage/shadow/composite.hpp"
+#include "umbrage/shadow/veil_layers.hpp"
 #include "umbrage/techniques/cpu/registry.hpp"
 
 namespace umbrage::techniques {
@@ -98,6 +100,41 @@ TEST(Transparent, FewerLayersAreTheFirstOfAll) {
       for (std::size_t k = 0; k < std::min<std::size_t>(all.veils.at(i).size(), std::size_t(layers)); ++k)
         ASSERT_EQ(some.masks[0].veils[all.veils.first[i] + k], all.masks[0].veils[all.veils.first[i] + k]);
   }
+}
+
+TEST(Transparent, LayersThatMatterAreFewerAndChangeNothingThatIsSeen) {
+  Builder b;
+  const auto ground = b.material(Vec3(0.8), 1.0), pane = b.material(Vec3(0.5), 0.5);
+  b.quad({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, ground);
+  for (int i = 0; i < 20; ++i) b.quad({0.05 * i, 0, 1 + 0.05 * i}, {1, 0, 0}, {0, 1, 0}, pane);
+  const std::vector<Light> lights{{scene::PointLight{{0.4, 0.3, 30}}}};
+  const auto camera = cameraAt({-1, -2, 9}, {0.4, 0.05, 0.5});
+  const auto all = shade("transparent_cpu", b.scene, camera, lights);
+  const auto matter = shade("transparent_cpu", b.scene, camera, lights, shadow::kVeilLayersThatMatter);
+  const auto rays = shade("transparent_rays", b.scene, camera, lights, shadow::kVeilLayersThatMatter);
+  // A quarter comes through each: of the fifth less than 1/255 is seen, not of the fourth.
+  const shadow::Filters filters = shadow::makeGeometry(b.scene)->filters;
+  EXPECT_EQ(shadow::litVeilLayers(shadow::kVeilLayersThatMatter, all.veils, filters), 4u);
+  EXPECT_EQ(shadow::litVeilLayers(7, all.veils, filters), 7u);
+  EXPECT_GT(shadow::litVeilLayers({}, all.veils, filters), 1000u);
+  EXPECT_EQ(shadow::litVeilLayers(shadow::kVeilLayersThatMatter, {}, filters), 0u);
+  EXPECT_EQ(matter.masks[0].tint, all.masks[0].tint);
+  EXPECT_EQ(compare(matter, rays).off, 0u);
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < all.surface.triangle.size(); ++i)
+    for (std::size_t k = 0; k < all.veils.at(i).size(); ++k) {
+      const bool same = matter.masks[0].veils[all.veils.first[i] + k] == all.masks[0].veils[all.veils.first[i] + k];
+      EXPECT_TRUE(same || k >= 4);
+      others += same ? 0 : 1;
+    }
+  EXPECT_GT(others, 100u);
+  const auto geometry = shadow::makeGeometry(b.scene);
+  const auto one = shadow::composite(b.scene, geometry->surfaces, camera, all, lights),
+             two = shadow::composite(b.scene, geometry->surfaces, camera, matter, lights);
+  int most = 0;
+  for (std::size_t i = 0; i < one.size(); ++i)
+    most = std::max(most, std::abs(int(one.pixels()[i].g) - int(two.pixels()[i].g)));
+  EXPECT_LE(most, 3) << "codes are of the sRGB curve, which is steep where it is dark";
 }
 
 TEST(Transparent, TheGreyMaskIsTheLuminanceOfTheTint) {
