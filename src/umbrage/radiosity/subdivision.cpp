@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "umbrage/base/check.hpp"
 
@@ -42,9 +43,12 @@ struct EdgeOf {
 std::vector<EdgeOf> edgesOf(const scene::Surfaces& surfaces) {
   std::vector<EdgeOf> edges;
   edges.reserve(3 * surfaces.triangles.size());
-  for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t)
+  std::set<mesh::Triangle> known;
+  for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t) {
+    if (!known.insert(surfaces.triangles[t]).second) continue;
     for (std::size_t k = 0; k < 3; ++k)
       edges.push_back({pairKey(surfaces.triangles[t][k], surfaces.triangles[t][(k + 1) % 3]), t});
+  }
   std::sort(edges.begin(), edges.end());
   return edges;
 }
@@ -69,10 +73,9 @@ void Subdivision::makeSheets() {
   const auto edges = edgesOf(*surfaces_);
   for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
     while (end < edges.size() && edges[end].edge == edges[begin].edge) ++end;
-    // Of a fan of very many triangles at one edge neighbours in the list are enough.
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t j = i + 1; j < std::min(end, i + 8); ++j)
-        if (alike(edges[i].triangle, edges[j].triangle)) sets.join(edges[i].triangle, edges[j].triangle);
+    // Where more than two meet, something stands upon the others, and light ends there.
+    if (end - begin == 2 && alike(edges[begin].triangle, edges[begin + 1].triangle))
+      sets.join(edges[begin].triangle, edges[begin + 1].triangle);
   }
   sheetOfTriangle_.assign(count, kNone);
   for (std::uint32_t t = 0; t < count; ++t) {

@@ -42,6 +42,16 @@ TEST(Subdivision, TheFacesOfABoxAreSheets) {
   EXPECT_EQ(mesh.vertices().size(), 6 * 4 + 12u);  // four corners a sheet, a middle a triangle
 }
 
+// A wall upon the joint of two floors: light ends there.
+TEST(Subdivision, SheetsEndWhereSomethingStandsUponThem) {
+  const auto left = shapes::quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}),
+             right = shapes::quad({1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}),
+             wall = shapes::quad({1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1});
+  const auto open = surfacesOf({left, right}), parted = surfacesOf({left, right, wall});
+  EXPECT_EQ(Subdivision(open).sheets().size(), 1u);
+  EXPECT_EQ(Subdivision(parted).sheets().size(), 3u);
+}
+
 TEST(Subdivision, UnevenCutsLeaveNoGaps) {
   const auto surfaces = surfacesOf({shapes::quad({0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0})});
   Subdivision mesh(surfaces);
