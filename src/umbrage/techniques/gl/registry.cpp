@@ -29,8 +29,10 @@ shadow::TechniqueEntry entry(shadow::Traits traits, Maker make, ContextSlot slot
 
 std::vector<shadow::TechniqueEntry> openGlTechniques(const render::VolumeOptions& options) {
   const auto slot = std::make_shared<std::shared_ptr<gl::Context>>();
-  return {entry(zFailTraits(), makeZFail, slot, options), entry(zPassTraits(), makeZPass, slot, options),
-          entry(zMixedTraits(), makeZMixed, slot, options), entry(zPassPlusTraits(), makeZPassPlus, slot, options),
+  return {entry(zFailTraits(), makeZFail, slot, options),
+          entry(zPassTraits(), makeZPass, slot, options),
+          entry(zMixedTraits(), makeZMixed, slot, options),
+          entry(zPassPlusTraits(), makeZPassPlus, slot, options),
           entry(transparentTraits(), makeTransparent, slot, options),
           entry(transparentZFailTraits(), makeTransparentZFail, slot, options),
           entry(softTraits(), makeSoft, slot, options)};
