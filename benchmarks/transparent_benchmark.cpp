@@ -132,7 +132,8 @@ void frameBy(GlWay& way, const Case& c, render::GpuFrame& target, bool counts) {
   const double masks = since(start);
   if (!shading) return void(std::puts(shading.error().text().c_str()));
   start = std::chrono::steady_clock::now();
-  if (auto done = way.technique->draw(target, frame, options); !done) return void(std::puts(done.error().text().c_str()));
+  if (auto done = way.technique->draw(target, frame, options); !done)
+    return void(std::puts(done.error().text().c_str()));
   gl::finish();
   if (counts) way.masks.push_back(masks), way.pictures.push_back(since(start));
 }
@@ -158,8 +159,8 @@ void measureGl(Case c, int rounds) {
   fmt::print("{}, OpenGL ({})\n", c.name, (*context)->renderer());
   for (GlWay& way : ways) {
     const double masks = median(way.masks), pictures = median(way.pictures);
-    fmt::print("  {:22} masks {:6.1f} ({:.2f}x)   pictures {:6.1f} ({:.2f}x)\n", way.name, masks, masks / median(ways[0].masks), pictures,
-               pictures / median(ways[0].pictures));
+    fmt::print("  {:22} masks {:6.1f} ({:.2f}x)   pictures {:6.1f} ({:.2f}x)\n", way.name, masks,
+               masks / median(ways[0].masks), pictures, pictures / median(ways[0].pictures));
     const auto shading = way.technique->shade({.camera = c.camera, .lights = {&c.light, 1}, .veilLayers = way.layers});
     for (const auto& phase : shading->stats.phases) fmt::print("    {} {:.1f}", phase.name, phase.milliseconds);
     fmt::print("\n");

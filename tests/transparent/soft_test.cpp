@@ -58,8 +58,10 @@ TEST_F(SoftGl, IsTheMeanThatRaysHave) {
     }
     const std::size_t pixels = rays.masks[0].light.size();
     const auto &soft = *mine.stats.lights[0].soft, &truth = *rays.stats.lights[0].soft;
-    std::printf("%zu of %zu pixels equal, %zu more than three samples apart; estimated error %.5f and %.5f; umbra %zu and %zu, penumbra %zu and %zu\n",
-                equal, pixels, far, soft.error, truth.error, soft.umbra, truth.umbra, soft.penumbra, truth.penumbra);
+    std::printf(
+        "%zu of %zu pixels equal, %zu more than three samples apart; estimated error %.5f and %.5f; umbra %zu and %zu, "
+        "penumbra %zu and %zu\n",
+        equal, pixels, far, soft.error, truth.error, soft.umbra, truth.umbra, soft.penumbra, truth.penumbra);
     EXPECT_GE(equal, pixels - pixels / 100);
     EXPECT_LE(far, pixels / 2000);
     EXPECT_NEAR(soft.error, truth.error, 0.02 * truth.error);
@@ -107,8 +109,9 @@ TEST_F(SoftGl, StopsWhenTheErrorIsSmallEnoughOrTheUserSaysSo) {
   EXPECT_LT(rough.stats.lights[0].soft->samples, 4096u);
   EXPECT_LE(rough.stats.lights[0].soft->error, 0.02);
   std::size_t told = 0;
-  const auto stopped = shade("soft", geometry, camera, light,
-                             {.samples = 4096, .progress = [&](const shadow::SoftProgress& p) { return ++told, p.samples < 48; }});
+  const auto stopped =
+      shade("soft", geometry, camera, light,
+            {.samples = 4096, .progress = [&](const shadow::SoftProgress& p) { return ++told, p.samples < 48; }});
   EXPECT_EQ(stopped.stats.lights[0].soft->samples, 48u);
   EXPECT_EQ(told, 3u);
 }

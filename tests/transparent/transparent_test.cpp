@@ -60,11 +60,13 @@ TEST_F(TransparentGl, PanesTakeTheirShareEach) {
       const Light lamp{scene::PointLight{{0.4, 0.3, 30}}};
       for (const auto* way : {&mine, &behind}) {
         ASSERT_TRUE((*way)->prepare(geometry));
-        for (const Vec3& eye : {Vec3(-6, -5, 0.7), Vec3(-2, -3, 12), Vec3(0.3, 0.2, 1.52)}) {  // beside, above and among them
+        for (const Vec3& eye :
+             {Vec3(-6, -5, 0.7), Vec3(-2, -3, 12), Vec3(0.3, 0.2, 1.52)}) {  // beside, above and among them
           const auto shading = (*way)->shade({.camera = cameraAt(eye, {0.1, 0.05, 0}, 64, 48), .lights = {&lamp, 1}});
           ASSERT_TRUE(shading);
           // The middle of the picture shows the ground below the panes.
-          EXPECT_NEAR(shadow::partsOf(shading->masks[0].tint(32, 24)).x, std::pow(t, n), 1e-4) << t << " " << n << " " << eye.z;
+          EXPECT_NEAR(shadow::partsOf(shading->masks[0].tint(32, 24)).x, std::pow(t, n), 1e-4)
+              << t << " " << n << " " << eye.z;
         }
       }
     }
@@ -78,8 +80,8 @@ TEST_F(TransparentGl, HundredsOfPanesAddUp) {
     b.quad({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, ground);
     for (int i = 0; i < n; ++i) b.quad({0, 0, 1 + 0.01 * i}, {2, 0, 0}, {0, 2, 0}, pane);
     for (const char* name : {"transparent", "transparent_zfail"}) {
-      const auto shading =
-          shade(name, b.scene, cameraAt({-6, -5, 0.7}, {0.1, 0.05, 0}, 32, 24), {Light{scene::PointLight{{0.4, 0.3, 60}}}}, 0);
+      const auto shading = shade(name, b.scene, cameraAt({-6, -5, 0.7}, {0.1, 0.05, 0}, 32, 24),
+                                 {Light{scene::PointLight{{0.4, 0.3, 60}}}}, 0);
       const Vec3 light = shadow::partsOf(shading.masks[0].tint(16, 12));
       EXPECT_NEAR(light.x, 1.0, 1e-4) << name;
       EXPECT_NEAR(light.z, std::pow(t, n), 1e-4) << name << " " << t << " " << n;
@@ -129,7 +131,8 @@ TEST_F(TransparentGl, ZPassAndZFailAgreeToTheBit) {
   const auto lights = fourLights();
   for (const Vec3& eye : {Vec3(-7, -6, 4), Vec3(0.05, -0.1, 0.2)}) {
     const auto camera = cameraAt(eye, {0.2, 0.1, -0.3});
-    const auto before = shade("transparent", scene, camera, lights), behind = shade("transparent_zfail", scene, camera, lights),
+    const auto before = shade("transparent", scene, camera, lights),
+               behind = shade("transparent_zfail", scene, camera, lights),
                plain = shade("transparent plain", scene, camera, lights);
     for (std::size_t i = 0; i < lights.size(); ++i) {
       std::size_t other = 0, otherVeils = 0, otherPlain = 0;
@@ -139,8 +142,8 @@ TEST_F(TransparentGl, ZPassAndZFailAgreeToTheBit) {
       }
       for (std::size_t k = 0; k < before.masks[i].veils.size(); ++k)
         otherVeils += !(before.masks[i].veils[k] == behind.masks[i].veils[k]);
-      std::printf("eye %.1f, light %zu: %zu pixels and %zu veils differ; %zu pixels from plain volumes\n", eye.x, i, other,
-                  otherVeils, otherPlain);
+      std::printf("eye %.1f, light %zu: %zu pixels and %zu veils differ; %zu pixels from plain volumes\n", eye.x, i,
+                  other, otherVeils, otherPlain);
       EXPECT_EQ(other, 0u);
       EXPECT_EQ(otherVeils, 0u);
     }
@@ -217,8 +220,8 @@ TEST_F(TransparentGl, SoupsAreAsRaysSeeThem) {
       const auto camera = cameraAt(eye, {0.2, 0.1, -0.3});
       const auto truth = shade("transparent_rays", scene, camera, lights);
       const Compared c = compareAll(shade("transparent", scene, camera, lights), truth);
-      std::printf("%zu triangles, eye %.1f: %zu pixels, %zu with other surfaces; of %zu surfaces %zu off\n", count, eye.x, c.pixels,
-                  c.otherVeils, c.surfaces, c.off);
+      std::printf("%zu triangles, eye %.1f: %zu pixels, %zu with other surfaces; of %zu surfaces %zu off\n", count,
+                  eye.x, c.pixels, c.otherVeils, c.surfaces, c.off);
       // Where surfaces cut each other, which is nearer is rounded to single precision.
       EXPECT_LE(c.otherVeils, c.pixels / 500);
       EXPECT_LE(c.off, c.surfaces / 10000);

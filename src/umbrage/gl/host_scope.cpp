@@ -127,8 +127,9 @@ struct ColourState {
 ColourState colourState(GLuint i) {
   ColourState state;
   state.isBlended = glIsEnabledi(GL_BLEND, i);
-  state.blend = {integer(GL_BLEND_SRC_RGB, i),   integer(GL_BLEND_DST_RGB, i),      integer(GL_BLEND_SRC_ALPHA, i),
-                 integer(GL_BLEND_DST_ALPHA, i), integer(GL_BLEND_EQUATION_RGB, i), integer(GL_BLEND_EQUATION_ALPHA, i)};
+  state.blend = {integer(GL_BLEND_SRC_RGB, i),      integer(GL_BLEND_DST_RGB, i),
+                 integer(GL_BLEND_SRC_ALPHA, i),    integer(GL_BLEND_DST_ALPHA, i),
+                 integer(GL_BLEND_EQUATION_RGB, i), integer(GL_BLEND_EQUATION_ALPHA, i)};
   glGetBooleani_v(GL_COLOR_WRITEMASK, i, state.mask.data());
   return state;
 }

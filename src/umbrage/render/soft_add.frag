@@ -19,7 +19,6 @@ layout(std140, binding = 0) uniform Soft {
   vec4 ball;         // centre, relative to the eye, and radius; below 0: all samples count alike
   vec4 ballSample;   // the point of it, relative to the eye
   int half1;         // of the samples, to which this one belongs
-  int isFirst;       // of that half
   int surfaces;      // of the picture: opaque ones and veils
 };
 layout(std140, binding = 1) uniform Shading {
@@ -63,7 +62,7 @@ void add(uint place, uint id, vec3 ray) {
   float weight = weightAt(id, ray);
   vec4 sum = weight * vec4(vec3(t.x & 0xffffu, t.x >> 16, t.y) / 65535.0, 1.0);
   uint at = uint(half1 * surfaces) + place;
-  halves[at] = isFirst != 0 ? sum : halves[at] + sum;
+  halves[at] += sum;
 }
 
 void main() {
@@ -71,6 +70,6 @@ void main() {
   vec3 ray = rayCorner.xyz + gl_FragCoord.x * rayX.xyz + gl_FragCoord.y * rayY.xyz;
   uint place = uint(at.y * width + at.x), id = texelFetch(ids, at, 0).r;
   if (id != kNone) add(place, id, ray);
-  if (hasVeils == 0) return;
-  for (uint k = pixel[place].x, end = k + pixel[place].y; k < end; ++k) add(uint(pixelCount) + k, veil[k].x & kId, ray);
+  uvec2 own = hasVeils != 0 ? pixel[place] : uvec2(0u);
+  for (uint k = own.x; k < own.x + own.y; ++k) add(uint(pixelCount) + k, veil[k].x & kId, ray);
 }

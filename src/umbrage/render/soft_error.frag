@@ -19,7 +19,6 @@ layout(std140, binding = 0) uniform Soft {
   vec4 ball;         // centre, relative to the eye, and radius; below 0: all samples count alike
   vec4 ballSample;   // the point of it, relative to the eye
   int half1;         // of the samples, to which this one belongs
-  int isFirst;       // of that half
   int surfaces;      // of the picture: opaque ones and veils
 };
 layout(binding = 0) uniform usampler2D ids;
@@ -34,7 +33,7 @@ layout(location = 0) out vec2 squaresAndCount;
 float squareAt(uint place) {
   vec4 a = halves[place], b = halves[uint(surfaces) + place];
   float apart = dot(a.rgb / a.w - b.rgb / b.w, vec3(0.2126, 0.7152, 0.0722)) / 2.0;
-  return a.w > 0.0 && b.w > 0.0 ? apart * apart : 0.0;
+  return min(a.w, b.w) > 0.0 ? apart * apart : 0.0;
 }
 
 void main() {
@@ -44,8 +43,8 @@ void main() {
     for (int x = corner.x; x < end.x; ++x) {
       uint place = uint(y * size.x + x);
       if (texelFetch(ids, ivec2(x, y), 0).r != kNone) sum += vec2(squareAt(place), 1.0);
-      if (hasVeils == 0) continue;
-      for (uint k = pixel[place].x, last = k + pixel[place].y; k < last; ++k)
+      uvec2 own = hasVeils != 0 ? pixel[place] : uvec2(0u);
+      for (uint k = own.x; k < own.x + own.y; ++k)
         sum += vec2(squareAt(uint(pixelCount) + k), 1.0);
     }
   squaresAndCount = sum;

@@ -19,7 +19,6 @@ layout(std140, binding = 0) uniform Soft {
   vec4 ball;         // centre, relative to the eye, and radius; below 0: all samples count alike
   vec4 ballSample;   // the point of it, relative to the eye
   int half1;         // of the samples, to which this one belongs
-  int isFirst;       // of that half
   int surfaces;      // of the picture: opaque ones and veils
 };
 layout(binding = 0) uniform usampler2D ids;
@@ -43,6 +42,6 @@ void main() {
     write(place, half1 != 0);
   else
     tints[place] = uvec2(0u);
-  if (hasVeils == 0) return;
-  for (uint k = pixel[place].x, end = k + pixel[place].y; k < end; ++k) write(uint(pixelCount) + k, half1 != 0);
+  uvec2 own = hasVeils != 0 ? pixel[place] : uvec2(0u);
+  for (uint k = own.x; k < own.x + own.y; ++k) write(uint(pixelCount) + k, half1 != 0);
 }

@@ -5,6 +5,7 @@
 #include <umbrage_shaders/soft_error_frag.hpp>
 #include <umbrage_shaders/soft_mean_frag.hpp>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -26,7 +27,8 @@ std::size_t surfacesOf(const TintedFrame& frame) {
 struct SoftSums::Block {
   TintedBlock tinted{};
   Vec4f ball{0.0f, 0.0f, 0.0f, -1.0f}, sample{0.0f};
-  std::int32_t half = 0, isFirst = 0, surfaces = 0, unused = 0;
+  std::int32_t half = 0, surfaces = 0;
+  std::array<std::int32_t, 2> unused{};
 };
 
 struct SoftSums::Programs {
@@ -57,11 +59,12 @@ Result<void> SoftSums::add(const TintedFrame& frame, const TintedPasses& passes,
   if (programs_ == nullptr) programs_ = std::make_unique<Programs>();
   const std::size_t bytes = 2 * kSumBytes * surfacesOf(frame);
   if (bytes > gl::findQuirks().maxStorageBytes)
-    return fail(ErrorCode::device, "the picture shows more surfaces than a buffer of this driver holds sums for; choose a smaller one");
+    return fail(ErrorCode::device,
+                "the picture shows more surfaces than a buffer of this driver holds sums for; choose a smaller one");
   if (auto done = halves_.reserve(bytes); !done) return done;
+  if (samples_ == 0) halves_.clear();
   Block block;
   block.half = static_cast<std::int32_t>(shadow::halfOf(samples_));
-  block.isFirst = samples_ == 0 || samples_ == 8 ? 1 : 0;
   if (sample.ball) {
     block.ball = Vec4f(Vec3f(sample.ball->centre - eye), static_cast<float>(sample.ball->radius));
     block.sample = Vec4f(Vec3f(std::get<scene::PointLight>(sample.light.shape).position - eye), 0.0f);
@@ -93,8 +96,8 @@ Result<double> SoftSums::error(const TintedFrame& frame) {
     pass.draw(screen_, 3);
   }
   double squares = 0.0, count = 0.0;
-  for (const Vec2f& tile : gl::readPairs(frame.scope, frame.target.tilesTarget(), columns, rows).pixels())
-    squares += double(tile.x), count += double(tile.y);
+  const image::Image<Vec2f> tiles = gl::readPairs(frame.scope, frame.target.tilesTarget(), columns, rows);
+  for (const Vec2f& tile : tiles.pixels()) squares += double(tile.x), count += double(tile.y);
   return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 

@@ -17,7 +17,7 @@ class SoftSums {
   /// REQUIRES: `passes` has just reached the surfaces from `sample`. Errors: ErrorCode::device when memory is short.
   [[nodiscard]] Result<void> add(const TintedFrame& frame, const TintedPasses& passes, const gl::Buffer& shading,
                                  const shadow::LightSample& sample, const Vec3& eye);
-  /// A light begins. 
+  /// A light begins.
   void begin() { samples_ = 0; }
   [[nodiscard]] std::size_t samples() const { return samples_; }
 

@@ -22,7 +22,7 @@ layout(std140, binding = 1) uniform Shading {
   vec4 rayX;
   vec4 rayY;
   vec4 lamp;        // relative to the eye; w = 0: the direction towards it
-  vec4 radiance;    // linear colour x intensity
+  vec4 radiance;    // here: the background, linear
   vec4 cone;        // a spot's direction and the cosine of its cutoff; w below -1: no cone
   vec4 sky;         // up, and the ambient light
   vec4 background;  // sRGB
@@ -45,7 +45,6 @@ const float kSkyBase = 0.75;
 
 layout(location = 0) out vec4 colour;
 
-vec3 linearOf(vec3 srgb) { return mix(pow((srgb + 0.055) / 1.055, vec3(2.4)), srgb / 12.92, lessThanEqual(srgb, vec3(0.04045))); }
 vec3 srgbOf(vec3 linear) { return mix(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 12.92 * linear, lessThanEqual(linear, vec3(0.0031308))); }
 
 void main() {
@@ -57,7 +56,7 @@ void main() {
     colour = vec4(background.rgb, 1.0);
     return;
   }
-  vec3 behind = isSky ? linearOf(background.rgb) : texelFetch(sum, at, 0).rgb;
+  vec3 behind = isSky ? radiance.rgb : texelFetch(sum, at, 0).rgb;
   for (uint k = own.y; k > 0u; --k) {
     uint id = veil[own.x + k - 1u].x & kId, m = floatBitsToUint(face[id].normal.w);
     vec3 n = face[id].normal.xyz;

@@ -60,11 +60,11 @@ void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec3 ray = rayCorner.xyz + gl_FragCoord.x * rayX.xyz + gl_FragCoord.y * rayY.xyz;
   uint place = uint(at.y * width + at.x);
-  if (hasVeils != 0)
-    for (uint k = pixel[place].x, end = k + pixel[place].y; k < end; ++k) {
-      vec3 before = light == 0 ? vec3(0.0) : veilLight[k].rgb;
-      veilLight[k] = vec4(before + lightOn(veil[k].x & kId, ray, tintAt(uint(pixelCount) + k)), 0.0);
-    }
+  uvec2 own = hasVeils != 0 ? pixel[place] : uvec2(0u);
+  for (uint k = own.x; k < own.x + own.y; ++k) {
+    vec3 before = light == 0 ? vec3(0.0) : veilLight[k].rgb;
+    veilLight[k] = vec4(before + lightOn(veil[k].x & kId, ray, tintAt(uint(pixelCount) + k)), 0.0);
+  }
   uint id = texelFetch(ids, at, 0).r;
   share = id != kNone ? vec4(lightOn(id, ray, tintAt(place)), 0.0) : vec4(0.0);
 }

@@ -22,7 +22,7 @@
 namespace umbrage::render {
 namespace {
 
-constexpr std::size_t kTintBytes = 8;       // as the shaders have it
+constexpr std::size_t kTintBytes = 8;        // as the shaders have it
 constexpr std::size_t kVeilLightBytes = 16;  // likewise
 constexpr std::size_t kVeilSumBytes = 16;    // likewise
 // Of the stencil: the highest bit marks where something is to be summed up, the others count.
@@ -43,9 +43,10 @@ std::vector<Face> facesOf(const shadow::Geometry& geometry) {
     const Vec3 normal = surfaces.normal(t);
     const double length = glm::length(normal);
     const shadow::FilterSum& filter = geometry.filters.of(t);
-    faces.push_back({Vec4f(length > 0.0 ? Vec3f(normal / length) : Vec3f(0.0f), std::bit_cast<float>(surfaces.materials[t])),
-                     Vec4f(Vec3f(surfaces.corner(t, 0)), 1.0f),
-                     {filter[0], filter[1], filter[2], geometry.filters.isVeil(t) ? 1 : 0}});
+    faces.push_back(
+        {Vec4f(length > 0.0 ? Vec3f(normal / length) : Vec3f(0.0f), std::bit_cast<float>(surfaces.materials[t])),
+         Vec4f(Vec3f(surfaces.corner(t, 0)), 1.0f),
+         {filter[0], filter[1], filter[2], geometry.filters.isVeil(t) ? 1 : 0}});
   }
   return faces;
 }
@@ -94,10 +95,13 @@ std::array<std::array<float, 4>, TintTargets::kPairs> partsOf(const TintWeight& 
 struct TintedPasses::Programs {
   gl::Program receivers{shaders::kScreenVert, shaders::kTintedReceiversFrag},
       veiled{shaders::kScreenVert, shaders::kTintedVeiledFrag}, tiles{shaders::kScreenVert, shaders::kTintedTilesFrag},
-      volume{shaders::kTintedVolumeVert, shaders::kTintedVolumeFrag}, volumeCount{shaders::kTintedVolumeVert, shaders::kVolumeFrag},
+      volume{shaders::kTintedVolumeVert, shaders::kTintedVolumeFrag},
+      volumeCount{shaders::kTintedVolumeVert, shaders::kVolumeFrag},
       volumeLayers{shaders::kTintedVolumeVert, shaders::kTintedVolumeLayersFrag},
-      reach{shaders::kScreenVert, shaders::kTintedReachFrag}, reachVeils{shaders::kScreenVert, shaders::kTintedReachVeilsFrag}, ambient{shaders::kScreenVert, shaders::kAmbientFrag},
-      light{shaders::kScreenVert, shaders::kTintedLightFrag}, encode{shaders::kScreenVert, shaders::kTintedEncodeFrag};
+      reach{shaders::kScreenVert, shaders::kTintedReachFrag},
+      reachVeils{shaders::kScreenVert, shaders::kTintedReachVeilsFrag},
+      ambient{shaders::kScreenVert, shaders::kAmbientFrag}, light{shaders::kScreenVert, shaders::kTintedLightFrag},
+      encode{shaders::kScreenVert, shaders::kTintedEncodeFrag};
 };
 
 TintedPasses::TintedPasses() : programs_(std::make_unique<Programs>()) {}
@@ -129,8 +133,8 @@ Result<void> TintedPasses::setBlock(const TintedFrame& frame, int light) {
   return block_.setOne(block);
 }
 
-Result<void> TintedPasses::setLight(const TintedFrame& frame, const TintedLight& light, std::span<const std::uint8_t> facing,
-                                    std::span<const std::int8_t> side) {
+Result<void> TintedPasses::setLight(const TintedFrame& frame, const TintedLight& light,
+                                    std::span<const std::uint8_t> facing, std::span<const std::int8_t> side) {
   const auto surfaces = static_cast<std::size_t>(frame.block.pixelCount) + frame.veils.count();
   if (kTintBytes * surfaces > gl::findQuirks().maxStorageBytes)
     return fail(ErrorCode::device, "the picture shows more surfaces than a buffer of this driver holds tints for");
@@ -139,7 +143,9 @@ Result<void> TintedPasses::setLight(const TintedFrame& frame, const TintedLight&
                            veilSums_.reserve(frame.lightsVeils() ? kVeilSumBytes * frame.veils.count() : 0)})
     if (!done) return done;
   for (const Counted counted : kAllCounted)
-    if (auto done = counted_[counted].setOne(std::array{static_cast<std::int32_t>(counted), frame.block.litLayers, frame.block.width, 0}); !done)
+    if (auto done = counted_[counted].setOne(
+            std::array{static_cast<std::int32_t>(counted), frame.block.litLayers, frame.block.width, 0});
+        !done)
       return done;
   return {};
 }
@@ -219,7 +225,8 @@ void TintedPasses::mark(const TintedFrame& frame, const TintedLight& light, bool
   pass.draw(screen_, 3);
 }
 
-void TintedPasses::drawPieces(gl::Pass& pass, const TintedFrame& frame, const IndexRange& sides, const IndexRange& caps) {
+void TintedPasses::drawPieces(gl::Pass& pass, const TintedFrame& frame, const IndexRange& sides,
+                              const IndexRange& caps) {
   pass.uniforms(0, view_);
   pass.storage(0, frame.scene.positions());
   pass.storage(1, farPoints_);
@@ -230,7 +237,8 @@ void TintedPasses::drawPieces(gl::Pass& pass, const TintedFrame& frame, const In
 
 // In the lower bits, as all stencil volumes are. What counts behind is told by its turned comparison.
 void TintedPasses::countOpaque(const TintedFrame& frame, const gl::Rect& area, Counted counted) {
-  const IndexRange sides = counted == everywhere ? IndexRange{} : (counted == behind ? failSides_ : passSides_).ofOpaque();
+  const IndexRange sides =
+      counted == everywhere ? IndexRange{} : (counted == behind ? failSides_ : passSides_).ofOpaque();
   const IndexRange caps = counted == behind ? IndexRange{} : (counted == before ? passCaps_ : failCaps_).ofOpaque();
   if (sides.count + caps.count == 0) return;
   const gl::StencilFace up{.pass = gl::StencilOp::increment}, down{.pass = gl::StencilOp::decrement};

@@ -55,8 +55,8 @@ class TintedPasses {
   [[nodiscard]] Result<void> setMaterials(std::span<const scene::Material> materials);
 
   /// `facing`: per surface: its visible side faces the light; `side`: per surface: TintedVolume::side, empty before it is known. Errors: as make().
-  [[nodiscard]] Result<void> setLight(const TintedFrame& frame, const TintedLight& light, std::span<const std::uint8_t> facing,
-                                      std::span<const std::int8_t> side);
+  [[nodiscard]] Result<void> setLight(const TintedFrame& frame, const TintedLight& light,
+                                      std::span<const std::uint8_t> facing, std::span<const std::int8_t> side);
   /// Of another light than the tints are of, for addLight(). Errors: as make().
   [[nodiscard]] Result<void> setShading(const ShadingBlock& shading) { return shading_.setOne(shading); }
   /// How far its receivers are, for ReceiverTiles. REQUIRES: setLight().
@@ -95,14 +95,15 @@ class TintedPasses {
   void writeTints(const TintedFrame& frame, const TintedLight& light, bool veils);
 
   std::unique_ptr<Programs> programs_;
-  gl::Buffer faces_, bits_, block_, view_, shading_, pieces_, farPoints_, tints_, veilSums_, veilLight_, colours_, passing_;
+  gl::Buffer faces_, bits_, block_, view_, shading_, pieces_, farPoints_, tints_, veilSums_, veilLight_, colours_,
+      passing_;
   std::array<gl::Buffer, 3> counted_;
   gl::Buffer quads_, triangles_;  ///< indices of sides and of caps, piece by piece
   gl::VertexArray quadVertices_{quads_}, triangleVertices_{triangles_}, screen_;
   std::size_t patterns_ = 0;  ///< pieces that the indices reach
   PieceRange passSides_, passCaps_, failSides_, failCaps_;
   TintWeight atEye_;
-  bool byStencil_ = false;   ///< opaque casters are counted in the stencil, for the opaque surfaces
+  bool byStencil_ = false;  ///< opaque casters are counted in the stencil, for the opaque surfaces
   bool hasTinted_ = false;
 };
 

@@ -53,10 +53,13 @@ float depthOf(uint id, vec3 ray) {
 }
 
 bool isLit(uint id, vec3 ray) {
-  if (!facesLight(id)) return false;
-  if (cone.w < -1.0) return true;
-  vec3 fromLight = ray * depthOf(id, ray) - lamp.xyz;
-  return dot(fromLight, cone.xyz) >= cone.w * length(fromLight);
+  bool is = facesLight(id);
+  // A loop, since rasterisers on the processor work out both sides of a condition, but no loop that nobody enters.
+  for (float cosine = cone.w; is && cosine >= -1.0; cosine = -2.0) {
+    vec3 fromLight = ray * depthOf(id, ray) - lamp.xyz;
+    is = dot(fromLight, cone.xyz) >= cosine * length(fromLight);
+  }
+  return is;
 }
 
 // What the way from the eye takes up where it passes a veil: into its shadow where it shows the side that the light sees, else out of it.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "umbrage/gl/read_back.hpp"
@@ -23,10 +24,17 @@ std::string reasonFor(Counting counting, const shadow::LightStats& stats) {
   if (counting == Counting::zFail)
     text = "what casters take from the light is summed up behind the surfaces that are seen; right for every eye";
   else if (stats.castersByZFail > 0)
-    text += "; " + std::to_string(stats.castersByZFail) + " casters by z-fail, since the eye touches them or a side of their shadow volumes";
+    text += "; " + std::to_string(stats.castersByZFail) +
+            " casters by z-fail, since the eye touches them or a side of their shadow volumes";
   if (counting == Counting::zPass)
     text += "; " + std::to_string(stats.eyeCount) + " surfaces between the eye and the light";
   return text;
+}
+
+// Of an sRGB value as the picture's code has it, as shadow::composite takes it.
+float linearCode(double srgb) {
+  return static_cast<float>(
+      shadow::decodeSrgb(static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(srgb, 0.0, 1.0)))));
 }
 
 using PackedTint = std::array<std::uint32_t, 2>;
@@ -57,8 +65,7 @@ struct VeilOrder {
     first.reserve(columns * rows + 1);
     first.push_back(0);
     for (std::size_t y = 0; y < rows; ++y)
-      for (std::size_t x = 0; x < columns; ++x)
-        first.push_back(first.back() + pixels[(rows - 1 - y) * columns + x][1]);
+      for (std::size_t x = 0; x < columns; ++x) first.push_back(first.back() + pixels[(rows - 1 - y) * columns + x][1]);
   }
   // fn(place in the card's list, place in the picture's, how many)
   template <class Fn>
@@ -194,17 +201,24 @@ class TintedTechnique final : public GlTechnique {
   }
 
   // Draws what the camera sees.
-  Result<TintedFrame> begin(gl::HostScope& scope, GpuFrame& target, const shadow::Frame& frame, const PictureOptions* options,
-                            const PhaseEnd& ended) {
+  Result<TintedFrame> begin(gl::HostScope& scope, GpuFrame& target, const shadow::Frame& frame,
+                            const PictureOptions* options, const PhaseEnd& ended) {
     const scene::Camera& camera = frame.camera;
     view_ = viewOf(camera, geometry_->surfaces.bounds.radius());
     ShadingBlock shading = shadingBlock(camera);
     if (options != nullptr) {
       shading.sky = Vec4f(Vec3f(options->up), static_cast<float>(options->light.ambient));
-      shading.background = Vec4f(Vec3f(options->light.background), 1.0f);
+      const Vec3& background = options->light.background;
+      shading.background = Vec4f(Vec3f(background), 1.0f);
+      shading.radiance = Vec4f(linearCode(background.x), linearCode(background.y), linearCode(background.z), 0.0f);
       if (auto done = own_->passes->setMaterials(options->materials); !done) return tl::unexpected(done.error());
     }
-    TintedFrame seen{.scope = scope, .scene = *own_->scene, .target = target, .veils = own_->veils, .placement = {}, .block = blockOf(view_, frame)};
+    TintedFrame seen{.scope = scope,
+                     .scene = *own_->scene,
+                     .target = target,
+                     .veils = own_->veils,
+                     .placement = {},
+                     .block = blockOf(view_, frame)};
     seen.placement.viewport = {0, 0, camera.width, camera.height};
     for (const auto& done : {own_->view.setOne(viewBlock(view_, geometry_->surfaces.origin, Vec4(0.0))),
                              own_->shading.setOne(shading), target.needTints(), target.needTiles(),
@@ -248,8 +262,8 @@ class TintedTechnique final : public GlTechnique {
   }
 
   // The mean of the hard light of many points; sixteen at a time, as on the processor.
-  Result<void> softLight(const TintedFrame& seen, const shadow::Frame& frame, std::size_t number, shadow::LightStats& told,
-                         const PhaseEnd& ended) {
+  Result<void> softLight(const TintedFrame& seen, const shadow::Frame& frame, std::size_t number,
+                         shadow::LightStats& told, const PhaseEnd& ended) {
     constexpr std::size_t kPart = 16;
     const scene::Light& light = frame.lights[number];
     Box3 room = geometry_->surfaces.bounds;
@@ -258,7 +272,8 @@ class TintedTechnique final : public GlTechnique {
     SoftSums& sums = own_->soft;
     double error = std::numeric_limits<double>::infinity();
     for (sums.begin(); sums.samples() < most;) {
-      for (const auto& sample : shadow::lightSamples(light, sums.samples(), std::min(kPart, most - sums.samples()), room)) {
+      for (const auto& sample :
+           shadow::lightSamples(light, sums.samples(), std::min(kPart, most - sums.samples()), room)) {
         shadow::LightStats one;
         if (auto done = hardLight(seen, frame, number, sample.light, one, ended); !done) return done;
         if (sums.samples() == 0) told = std::move(one);
@@ -277,8 +292,8 @@ class TintedTechnique final : public GlTechnique {
     return own_->passes->setShading(withLight(shadingBlock(frame.camera), frame.camera, light));
   }
 
-  Result<void> hardLight(const TintedFrame& seen, const shadow::Frame& frame, std::size_t number, const scene::Light& light,
-                         shadow::LightStats& told, const PhaseEnd& ended) {
+  Result<void> hardLight(const TintedFrame& seen, const shadow::Frame& frame, std::size_t number,
+                         const scene::Light& light, shadow::LightStats& told, const PhaseEnd& ended) {
     const auto end = [&](const char* phase) {
       if (ended) ended(phase);
     };
@@ -291,7 +306,8 @@ class TintedTechnique final : public GlTechnique {
     const TintedLight gpu{.number = static_cast<int>(number),
                           .view = viewBlock(view_, surfaces.origin, homogeneous),
                           .shading = withLight(shadingBlock(frame.camera), frame.camera, light),
-                          .volumeArea = volumeArea(view_, geometry_->casters.bounds, counted, homogeneous, surfaces.origin, seen.placement),
+                          .volumeArea = volumeArea(view_, geometry_->casters.bounds, counted, homogeneous,
+                                                   surfaces.origin, seen.placement),
                           .litArea = litArea(view_, light, seen.placement)};
     const auto facing = shadow::visibleSideFacesLight(surfaces, Vec4(eye, 1.0), homogeneous);
     if (auto done = own_->passes->setLight(seen, gpu, facing, {}); !done) return done;
@@ -326,7 +342,8 @@ class TintedTechnique final : public GlTechnique {
     return own_->passes->reach(seen, gpu, ended);
   }
 
-  [[nodiscard]] VeilOrder readSurfaces(const TintedFrame& seen, const scene::Camera& camera, shadow::Shading& out) const {
+  [[nodiscard]] VeilOrder readSurfaces(const TintedFrame& seen, const scene::Camera& camera,
+                                       shadow::Shading& out) const {
     const int width = camera.width, height = camera.height;
     out.surface = {gl::readIds(seen.scope, seen.target.surfaceTarget(), width, height),
                    gl::readDepth(seen.scope, seen.target.surfaceTarget(), width, height)};
@@ -337,10 +354,12 @@ class TintedTechnique final : public GlTechnique {
     forEachRow(height, [&](std::size_t y, std::size_t fromBottom) {
       float* depth = out.surface.depth.row(static_cast<int>(y));
       for (int x = 0; x < width; ++x) depth[x] = depthToDistance(view_, depth[x]);
-      order.forEachInRow(y, fromBottom, static_cast<std::size_t>(width), [&](std::size_t from, std::size_t to, std::size_t count) {
-        for (std::size_t k = 0; k < count; ++k)
-          out.veils.veils[to + k] = {veils[from + k][0] & 0x7fffffffu, depthToDistance(view_, std::bit_cast<float>(veils[from + k][1]))};
-      });
+      order.forEachInRow(
+          y, fromBottom, static_cast<std::size_t>(width), [&](std::size_t from, std::size_t to, std::size_t count) {
+            for (std::size_t k = 0; k < count; ++k)
+              out.veils.veils[to + k] = {veils[from + k][0] & 0x7fffffffu,
+                                         depthToDistance(view_, std::bit_cast<float>(veils[from + k][1]))};
+          });
     });
     return order;
   }

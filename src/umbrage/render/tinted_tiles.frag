@@ -40,8 +40,7 @@ void main() {
         float depth = texelFetch(depths, ivec2(x, y), 0).r;
         range = vec2(min(range.x, depth), max(range.y, depth));
       }
-      if (hasVeils == 0) continue;
-      uvec2 own = pixel[y * size.x + x];
+      uvec2 own = hasVeils != 0 ? pixel[y * size.x + x] : uvec2(0u);
       for (uint k = 0u; k < min(own.y, uint(litLayers)); ++k) {
         uvec2 v = veil[own.x + k];
         if (!facesLight(v.x & 0x7fffffffu)) continue;

@@ -99,7 +99,8 @@ class Pieces {
   void side(const shadow::SilhouetteEdge& edge, const TintWeight& weight) {
     const auto [a, b] = weight.opaque < 0 ? std::pair(edge.b, edge.a) : std::pair(edge.a, edge.b);
     for (int i = 0; i < std::abs(weight.opaque); ++i) opaque_.push_back(sideOf(a, b, {sign_, {}}));
-    if (weight.filter != shadow::FilterSum{}) tinted_.push_back(sideOf(edge.a, edge.b, times(sign_, {0, weight.filter})));
+    if (weight.filter != shadow::FilterSum{})
+      tinted_.push_back(sideOf(edge.a, edge.b, times(sign_, {0, weight.filter})));
   }
   /// `make`: nearCap or farCap; `side`: of the triangle.
   template <class Make>
@@ -242,7 +243,8 @@ TintedVolume prepareTinted(const shadow::Geometry& geometry, const VolumeRequest
   end("silhouette");
 
   VolumeShape shape({casters, request.light, request.eye, request.options, request.receivers, request.tiles});
-  shape.endVolumes(request.options.finite ? shadow::sidesAtEye(casters, outline.silhouette, request.eye) : Components());
+  shape.endVolumes(request.options.finite ? shadow::sidesAtEye(casters, outline.silhouette, request.eye)
+                                          : Components());
   dropUseless(outline, shape, stats);
   end("useless");
   const bool fits = fitsStencil(outline);
@@ -273,7 +275,8 @@ TintedVolume prepareTinted(const shadow::Geometry& geometry, const VolumeRequest
   stats.method = std::string("transparent, ") + name(request.counting);
   stats.eyeCount = atEye.count;
   if (shape.reach() != nullptr) stats.endlessCasters = shape.reach()->endlessCount();
-  stats.volumeTriangles = 2 * (out.passSides.all().count + out.failSides.all().count) + out.passCaps.all().count + out.failCaps.all().count;
+  stats.volumeTriangles =
+      2 * (out.passSides.all().count + out.failSides.all().count) + out.passCaps.all().count + out.failCaps.all().count;
   out.side = std::move(outline.silhouette.side);
   end("extrude");
   return out;

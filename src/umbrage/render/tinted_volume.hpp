@@ -37,13 +37,14 @@ struct TintedVolume {
   std::vector<TintedPiece> pieces;
   /// What counts before the surfaces that are seen, and what counts behind them, whose weights are negative already.
   PieceRange passSides, passCaps, failSides, failCaps;
-  std::vector<Vec4f> farPoints;    ///< shadow::farPoints
-  std::vector<std::int8_t> side;   ///< per caster triangle: Silhouette::side; 0 where it has no part in the volumes
-  TintWeight atEye;                ///< where the sums start
-  bool fitsStencil = false;        ///< no ray meets more opaque layers than 7 bits count
+  std::vector<Vec4f> farPoints;   ///< shadow::farPoints
+  std::vector<std::int8_t> side;  ///< per caster triangle: Silhouette::side; 0 where it has no part in the volumes
+  TintWeight atEye;               ///< where the sums start
+  bool fitsStencil = false;       ///< no ray meets more opaque layers than 7 bits count
 
   [[nodiscard]] bool hasTinted() const {
-    return passSides.tinted + passCaps.tinted + failSides.tinted + failCaps.tinted > 0 || atEye.filter != shadow::FilterSum{};
+    return passSides.tinted + passCaps.tinted + failSides.tinted + failCaps.tinted > 0 ||
+           atEye.filter != shadow::FilterSum{};
   }
 };
 
@@ -53,7 +54,7 @@ struct TintedVolume {
 /// 3. casters in whose plane the eye lies are seen by nobody and have no crossings: their caps count where they lie before a surface.
 /// REQUIRES: `request.finder` is of `geometry.casters`; its silhouettes are not used.
 /// Fills all of `stats` but its reason.
-[[nodiscard]] TintedVolume prepareTinted(const shadow::Geometry& geometry, const VolumeRequest& request, shadow::LightStats& stats,
-                                         const PhaseEnd& ended = {});
+[[nodiscard]] TintedVolume prepareTinted(const shadow::Geometry& geometry, const VolumeRequest& request,
+                                         shadow::LightStats& stats, const PhaseEnd& ended = {});
 
 }  // namespace umbrage::render

@@ -23,9 +23,11 @@ constexpr std::size_t kLeastFragments = 1 << 16;
 }  // namespace
 
 struct VeilLists::Programs {
-  gl::Program ordinary{shaders::kSurfaceVert, shaders::kVeilFrag}, large{shaders::kSurfaceVert, shaders::kVeilLargeFrag};
+  gl::Program ordinary{shaders::kSurfaceVert, shaders::kVeilFrag},
+      large{shaders::kSurfaceVert, shaders::kVeilLargeFrag};
   gl::Program begin = gl::Program::compute(shaders::kVeilBeginComp),
-              place = gl::Program::compute(shaders::kVeilPlaceComp), sort = gl::Program::compute(shaders::kVeilSortComp);
+              place = gl::Program::compute(shaders::kVeilPlaceComp),
+              sort = gl::Program::compute(shaders::kVeilSortComp);
 };
 
 VeilLists::VeilLists() = default;
@@ -34,8 +36,10 @@ VeilLists::~VeilLists() = default;
 Result<void> VeilLists::makeRoom(std::size_t fragments) {
   const std::size_t most = static_cast<std::size_t>(gl::findQuirks().maxStorageBytes) / kFragmentBytes;
   if (fragments > most)
-    return fail(ErrorCode::device, std::to_string(fragments) + " transparent surfaces before the opaque ones, and a buffer of this driver holds " +
-                                       std::to_string(most) + "; choose a smaller picture");
+    return fail(ErrorCode::device,
+                std::to_string(fragments) +
+                    " transparent surfaces before the opaque ones, and a buffer of this driver holds " +
+                    std::to_string(most) + "; choose a smaller picture");
   const std::size_t room = std::min(most, std::max(kLeastFragments, fragments + fragments / 4));
   for (const auto& done : {fragments_.reserve(kFragmentBytes * room), veils_.reserve(kVeilBytes * room)})
     if (!done) return done;
@@ -73,9 +77,11 @@ void VeilLists::compute(gl::HostScope& scope, const gl::Program& program, std::s
 
 Result<void> VeilLists::find(gl::HostScope& scope, const Input& input) {
   if (programs_ == nullptr) programs_ = std::make_unique<Programs>();
-  const std::size_t pixels = static_cast<std::size_t>(input.frame.width()) * static_cast<std::size_t>(input.frame.height());
+  const std::size_t pixels =
+      static_cast<std::size_t>(input.frame.width()) * static_cast<std::size_t>(input.frame.height());
   if (pixels_.bytes() != kVeilBytes * pixels)
-    if (auto done = pixels_.set(std::vector<std::byte>(kVeilBytes * pixels)); !done) return done;  // shaders ask for its length
+    if (auto done = pixels_.set(std::vector<std::byte>(kVeilBytes * pixels)); !done)
+      return done;  // shaders ask for its length
   if (auto done = countsBuffer_.reserve(sizeof(Counts)); !done) return done;
   if (auto done = makeRoom(0); !done) return done;
   // Mostly once: again when there are more than ever before.

@@ -4,7 +4,9 @@ namespace umbrage::techniques {
 
 shadow::Traits transparentTraits() {
   return {.name = "transparent",
-          .summary = "Coloured light through any number of transparent casters by shadow volumes without caps; self-shadows in every layer",
+          .summary =
+              "Coloured light through any number of transparent casters by shadow volumes without caps; self-shadows "
+              "in every layer",
           .tinted = true,
           .needsGraphics = true,
           .edgeTolerancePx = 1};
