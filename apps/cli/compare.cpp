@@ -9,6 +9,7 @@
 #include "json.hpp"
 #include "outputs.hpp"
 #include "umbrage/png/png.hpp"
+#include "veil_agreement.hpp"
 
 namespace umbrage::cli {
 namespace {
@@ -30,9 +31,11 @@ struct CompareOptions {
 struct Comparison {
   std::string technique, against;  ///< names, "auto" resolved
   std::vector<Agreement> lights;
+  std::vector<VeilAgreement> veils;  ///< per light, where both show veils
 
   [[nodiscard]] bool agree() const {
-    return std::all_of(lights.begin(), lights.end(), [](const auto& light) { return light.holds(); });
+    const auto holds = [](const auto& light) { return light.holds(); };
+    return std::ranges::all_of(lights, holds) && std::ranges::all_of(veils, holds);
   }
 };
 
@@ -62,6 +65,9 @@ std::string comparisonText(const Comparison& comparison, const View& view) {
     text +=
         fmt::format("light {:<3} {} of {} pixels differ, {} of them away from every edge   {}\n", i, light.differing,
                     view.camera.width * view.camera.height, light.astray, shortName(view.lights[i].name));
+    if (i < comparison.veils.size())
+      text += fmt::format("          {} of {} surfaces that let light through, {} of them away from every edge\n",
+                          comparison.veils[i].differing, comparison.veils[i].veils, comparison.veils[i].astray);
   }
   return text + (comparison.agree() ? "they agree\n" : "they do not agree\n");
 }
@@ -75,6 +81,10 @@ std::string comparisonJson(const Comparison& comparison, const View& view) {
   for (const auto& light : comparison.lights)
     json["lights"].push_back(
         {{"differing", light.differing}, {"far_from_edge", light.astray}, {"covered", light.covered}});
+  for (std::size_t i = 0; i < comparison.veils.size(); ++i)
+    json["lights"][i]["veils"] = {{"shown", comparison.veils[i].veils},
+                                  {"differing", comparison.veils[i].differing},
+                                  {"far_from_edge", comparison.veils[i].astray}};
   return jsonText(json);
 }
 
@@ -112,6 +122,20 @@ Result<std::vector<Agreement>> compareDrawings(const Drawing& a, const Drawing& 
                       tolerance, *edges);
 }
 
+// The light on what lets light through, where both show any.
+Result<std::vector<VeilAgreement>> compareVeilsOf(const Drawing& a, const Drawing& b, const View& view,
+                                                  const std::shared_ptr<const shadow::Geometry>& geometry) {
+  if (a.shading.veils.empty() && b.shading.veils.empty()) return std::vector<VeilAgreement>();
+  const auto truth = chooseTechnique(truthFor(a));
+  if (!truth) return tl::unexpected(truth.error());
+  if (const auto prepared = truth->technique->prepare(geometry); !prepared) return tl::unexpected(prepared.error());
+  const bool swapped = a.traits.name == truthFor(a);
+  const shadow::Frame frame{
+      .camera = view.camera, .lights = view.lights, .veilLayers = view.veilLayers, .soft = view.soft};
+  return compareVeils((swapped ? b : a).shading, (swapped ? a : b).shading, frame,
+                      std::max(a.traits.edgeTolerancePx, b.traits.edgeTolerancePx), *truth->technique);
+}
+
 Result<Outcome> run(const CompareOptions& options, const Console& console) {
   if (const auto open = checkPicture(options.picture, options.scene.file); !open) return tl::unexpected(open.error());
   auto scene = loadScene(options.scene, console);
@@ -130,7 +154,9 @@ Result<Outcome> run(const CompareOptions& options, const Console& console) {
   if (const auto written = writePicture(options.picture, *a, *b); !written) return tl::unexpected(written.error());
   auto lights = compareDrawings(*a, *b, *view, geometry);
   if (!lights) return tl::unexpected(lights.error());
-  const Comparison comparison{a->traits.name, b->traits.name, std::move(*lights)};
+  auto veils = compareVeilsOf(*a, *b, *view, geometry);
+  if (!veils) return tl::unexpected(veils.error());
+  const Comparison comparison{a->traits.name, b->traits.name, std::move(*lights), std::move(*veils)};
   return Outcome{options.json ? comparisonJson(comparison, *view) : comparisonText(comparison, *view),
                  comparison.agree() ? 0 : 1};
 }
