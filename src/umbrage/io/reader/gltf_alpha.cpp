@@ -13,10 +13,10 @@
 namespace umbrage::io::reader {
 namespace {
 
-/// Cells that may be looked at for all primitives together: about half a second.
-constexpr double kMostCells = 64e6;
-/// Rectangles of cells: about two seconds.
-constexpr std::size_t kMostEffort = 4'000'000;
+/// Cells that may be looked at for all primitives together: a quarter of a second.
+constexpr double kMostCells = 40e6;
+/// Rectangles of cells: about a second.
+constexpr std::size_t kMostEffort = 2'000'000;
 /// With textures that let something through; what they take of memory while they are cut.
 constexpr std::size_t kMostTextured = 2'000'000;
 
