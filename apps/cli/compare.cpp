@@ -7,7 +7,6 @@
 #include "judging.hpp"
 #include "outputs.hpp"
 #include "umbrage/png/png.hpp"
-#include "umbrage/shadow/unshadowed.hpp"
 
 namespace umbrage::cli {
 namespace {
@@ -24,10 +23,12 @@ struct CompareOptions {
 struct Comparison {
   std::string technique, against;  ///< names, "auto" resolved
   std::vector<Agreement> lights;
+  std::vector<VeilAgreement> veils;  ///< per light, where both show veils
   std::size_t unknown = 0;  ///< pixels on which one of them knows no shadows
 
   [[nodiscard]] bool agree() const {
-    return std::all_of(lights.begin(), lights.end(), [](const auto& light) { return light.holds(); });
+    const auto holds = [](const auto& light) { return light.holds(); };
+    return std::ranges::all_of(lights, holds) && std::ranges::all_of(veils, holds);
   }
 };
 
@@ -39,6 +40,9 @@ std::string comparisonText(const Comparison& comparison, const View& view) {
     text += fmt::format("light {:<3} {} of {} pixels differ, {} of them away from every edge, RMS error {:.4f}   {}\n",
                         i, light.differing, view.camera.width * view.camera.height, light.astray, light.rms,
                         shortName(view.lights[i].name));
+    if (i < comparison.veils.size())
+      text += fmt::format("          {} of {} surfaces that let light through, {} of them away from every edge\n",
+                          comparison.veils[i].differing, comparison.veils[i].veils, comparison.veils[i].astray);
   }
   if (comparison.unknown > 0)
     text +=
@@ -58,6 +62,10 @@ std::string comparisonJson(const Comparison& comparison, const View& view) {
                               {"far_from_edge", light.astray},
                               {"covered", light.covered},
                               {"rms", light.rms}});
+  for (std::size_t i = 0; i < comparison.veils.size(); ++i)
+    json["lights"][i]["veils"] = {{"shown", comparison.veils[i].veils},
+                                  {"differing", comparison.veils[i].differing},
+                                  {"far_from_edge", comparison.veils[i].astray}};
   return jsonText(json);
 }
 
@@ -90,7 +98,9 @@ Result<Outcome> run(const CompareOptions& options, const Console& console) {
   if (const auto written = writePicture(options.picture, *a, *b); !written) return tl::unexpected(written.error());
   auto lights = compareDrawings(*a, *b, *view, geometry);
   if (!lights) return tl::unexpected(lights.error());
-  const Comparison comparison{a->traits.name, b->traits.name, std::move(*lights),
+  auto veils = compareVeilsOf(*a, *b, *view, geometry);
+  if (!veils) return tl::unexpected(veils.error());
+  const Comparison comparison{a->traits.name, b->traits.name, std::move(*lights), std::move(*veils),
                               std::max(unknownPixels(*a), unknownPixels(*b))};
   return Outcome{options.json ? comparisonJson(comparison, *view) : comparisonText(comparison, *view),
                  comparison.agree() ? 0 : 1};

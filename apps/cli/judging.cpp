@@ -11,12 +11,16 @@ namespace {
 constexpr image::Rgb8 kWrong{220, 0, 0}, kUnknown{150, 175, 215};
 constexpr double kFaintest = 0.25;  // of what differs at all, so that it is seen
 
-Result<shadow::EdgeFinder> edgeFinderFor(const std::shared_ptr<const shadow::Geometry>& geometry,
-                                         const std::string& name) {
-  auto truth = chooseTechnique(name);
-  if (!truth) return tl::unexpected(truth.error());
-  if (const auto prepared = truth->technique->prepare(geometry); !prepared) return tl::unexpected(prepared.error());
-  return shadow::EdgeFinder(geometry, std::move(truth->technique));
+Result<std::unique_ptr<shadow::Technique>> prepared(const std::string& name,
+                                                    const std::shared_ptr<const shadow::Geometry>& geometry) {
+  auto chosen = chooseTechnique(name);
+  if (!chosen) return tl::unexpected(chosen.error());
+  if (const auto done = chosen->technique->prepare(geometry); !done) return tl::unexpected(done.error());
+  return std::move(chosen->technique);
+}
+
+int toleranceOf(const Drawing& a, const Drawing& b) {
+  return std::max(a.traits.edgeTolerancePx, b.traits.edgeTolerancePx);
 }
 
 /// Masks of which what is not known is taken from the other drawing.
@@ -49,13 +53,25 @@ std::size_t unknownPixels(const Drawing& drawing) {
 
 Result<std::vector<Agreement>> compareDrawings(const Drawing& a, const Drawing& b, const View& view,
                                                const std::shared_ptr<const shadow::Geometry>& geometry) {
-  const std::string truth = truthFor(a.traits, view);
-  const auto edges = edgeFinderFor(geometry, truth);
-  if (!edges) return tl::unexpected(edges.error());
-  const bool swapped = a.traits.name == truth;
-  const int tolerance = std::max(a.traits.edgeTolerancePx, b.traits.edgeTolerancePx);
+  const std::string name = truthFor(a.traits, view);
+  auto truth = prepared(name, geometry);
+  if (!truth) return tl::unexpected(truth.error());
+  const shadow::EdgeFinder edges(geometry, std::move(*truth));
+  const bool swapped = a.traits.name == name;
   const auto ofA = knownMasks(a, b), ofB = knownMasks(b, a);
-  return compareMasks(swapped ? ofB : ofA, swapped ? ofA : ofB, {view.camera, view.lights}, tolerance, *edges);
+  return compareMasks(swapped ? ofB : ofA, swapped ? ofA : ofB, {view.camera, view.lights}, toleranceOf(a, b), edges);
+}
+
+Result<std::vector<VeilAgreement>> compareVeilsOf(const Drawing& a, const Drawing& b, const View& view,
+                                                  const std::shared_ptr<const shadow::Geometry>& geometry) {
+  if (a.shading.veils.empty() && b.shading.veils.empty()) return std::vector<VeilAgreement>();
+  const std::string name = truthFor(a.traits, view);
+  const auto truth = prepared(name, geometry);
+  if (!truth) return tl::unexpected(truth.error());
+  const bool swapped = a.traits.name == name;
+  const shadow::Frame frame{
+      .camera = view.camera, .lights = view.lights, .veilLayers = view.veilLayers, .soft = view.soft};
+  return compareVeils((swapped ? b : a).shading, (swapped ? a : b).shading, frame, toleranceOf(a, b), **truth);
 }
 
 image::RgbImage differencePicture(const Drawing& a, const Drawing& b) {

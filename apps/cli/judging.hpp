@@ -2,6 +2,7 @@
 
 #include "agreement.hpp"
 #include "drawing.hpp"
+#include "veil_agreement.hpp"
 
 namespace umbrage::cli {
 
@@ -16,6 +17,10 @@ namespace umbrage::cli {
 /// of its own.
 [[nodiscard]] Result<std::vector<Agreement>> compareDrawings(const Drawing& a, const Drawing& b, const View& view,
                                                              const std::shared_ptr<const shadow::Geometry>& geometry);
+
+/// The same of the light on what lets light through, where both show any; empty: neither does.
+[[nodiscard]] Result<std::vector<VeilAgreement>> compareVeilsOf(
+    const Drawing& a, const Drawing& b, const View& view, const std::shared_ptr<const shadow::Geometry>& geometry);
 
 /// The first mask of `b`, pale, with every pixel that differs for any light in red, the redder the more; blue where one of them knows
 /// no shadows.

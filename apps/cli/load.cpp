@@ -32,6 +32,8 @@ Result<scene::Scene> loadFile(const SceneOptions& options) {
   load.heightProperty = options.heightProperty;
   load.defaultHeight = options.defaultHeight;
   load.floorHeight = options.floorHeight.value_or(load.floorHeight);
+  load.alphaTriangles = options.alphaTriangles.value_or(load.alphaTriangles);
+  load.alphaTexels = static_cast<int>(options.alphaTexels.value_or(static_cast<std::size_t>(load.alphaTexels)));
   return io::loadScene(options.file, load);
 }
 

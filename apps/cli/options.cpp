@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "umbrage/io/load.hpp"
+#include "umbrage/shadow/veil_layers.hpp"
+
 namespace umbrage::cli {
 namespace {
 
@@ -46,11 +49,18 @@ Result<std::size_t> parseSamples(std::string_view word) {
   return static_cast<std::size_t>(*number);
 }
 
+Result<std::size_t> parseCount(std::string_view word) {
+  const auto number = parseNumber(word, 0, io::kMaxTriangles);
+  if (!number || *number != std::floor(*number)) return fail(ErrorCode::usage, "must be a whole number");
+  return static_cast<std::size_t>(*number);
+}
+
 Result<std::optional<int>> parseVeilLayers(std::string_view word) {
   if (word == "all") return std::optional<int>();
+  if (word == "auto") return std::optional(shadow::kVeilLayersThatMatter);
   const auto number = parseNumber(word, 0, 1000);
   if (!number || *number != std::floor(*number))
-    return fail(ErrorCode::usage, "must be a whole number from 0 to 1000, or all");
+    return fail(ErrorCode::usage, "must be a whole number from 0 to 1000, all or auto");
   return std::optional(static_cast<int>(*number));
 }
 
@@ -82,6 +92,11 @@ void addSceneOptions(CLI::App& app, SceneOptions& options) {
            numberIn(0.01, 1000), kScene);
   addValue(app, "--floor-height", "M", "Footprints: from floor to floor, where only floors are known (default 3)",
            options.floorHeight, numberIn(0.1, 100), kScene);
+  addValue(app, "--alpha-triangles", "N",
+           "glTF: textures with alpha may cut triangles into so many pieces; 0: none (default 250000)",
+           options.alphaTriangles, parseCount, kScene);
+  addValue(app, "--alpha-texels", "N", "glTF: along cells of N x N texels, a power of two (default 1)",
+           options.alphaTexels, parseCount, kScene);
   addValues(app, "--casters", "PATTERN", "Only parts with such a name cast shadows ('*' and '?' allowed; repeatable)",
             options.casters, parseWord, kScene);
 }
@@ -148,9 +163,9 @@ void addSilhouetteOption(CLI::App& app, ViewOptions& options) {
 }
 
 void addVeilOption(CLI::App& app, ViewOptions& options) {
-  addValue(app, "--veil-layers", "N|all",
+  addValue(app, "--veil-layers", "N|all|auto",
            "So many surfaces of a pixel that let light through, the nearest, have the shadows of others on them; 0: "
-           "none (faster; default all)",
+           "none (faster); auto: those through which 1/255 of what is behind is seen (default all)",
            options.veilLayers, parseVeilLayers, kPicture);
   addValue(
       app, "--see-through", "OPACITY",

@@ -26,6 +26,7 @@ struct SceneOptions {
   std::optional<std::string> crs;
   std::optional<std::string> heightProperty;
   std::optional<double> defaultHeight, floorHeight;
+  std::optional<std::size_t> alphaTriangles, alphaTexels;
   std::vector<std::string> casters;  ///< patterns of the parts that cast; empty: all
 };
 void addSceneOptions(CLI::App& app, SceneOptions& options);

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "json.hpp"
+#include "umbrage/io/load.hpp"
+#include "umbrage/shadow/veil_layers.hpp"
 
 namespace umbrage::cli {
 namespace {
@@ -101,6 +103,60 @@ Json phasesJson(const std::vector<shadow::PhaseTime>& phases) {
   return json;
 }
 
+/// What less than this is left of counts as this: shadow::Filters.
+constexpr double kDarkest = 0x1p-14;
+
+/// Of the scene's materials that surfaces have, those in a channel of which less comes through than techniques can tell from nothing.
+std::string darkChannels(const Stats& stats) {
+  const auto& materials = stats.view.scene.materials;
+  std::set<std::uint32_t> used(stats.geometry.surfaces.materials.begin(), stats.geometry.surfaces.materials.end());
+  std::size_t rounded = 0;
+  for (const std::uint32_t m : used) {
+    const Vec3 part = scene::transmittance(materials[m]);
+    const double most = std::max({part.x, part.y, part.z}), least = std::min({part.x, part.y, part.z});
+    rounded += (most > 0.0 && least < kDarkest) ? 1 : 0;
+  }
+  if (rounded == 0) return {};
+  return fmt::format(
+      "{} material{} let{} less than 2^-14 of a channel through: that counts as 2^-14, and as nothing where no channel "
+      "has more",
+      rounded, rounded == 1 ? "" : "s", rounded == 1 ? "s" : "");
+}
+
+std::string limitedVeils(const Stats& stats) {
+  const auto& veils = stats.drawing.shading.veils;
+  const std::size_t lit = shadow::litVeilLayers(stats.view.veilLayers, veils, stats.geometry.filters);
+  std::size_t beyond = 0, deepest = 0;
+  for (std::size_t pixel = 0; pixel + 1 < veils.first.size(); ++pixel) {
+    const std::size_t here = veils.at(pixel).size();
+    beyond += here - std::min(here, lit), deepest = std::max(deepest, here);
+  }
+  if (beyond == 0) return {};
+  const bool matter = stats.view.veilLayers == shadow::kVeilLayersThatMatter;
+  return fmt::format("{} of {} transparent surfaces seen, behind the nearest {} of up to {} of a pixel, have {}{}",
+                     beyond, veils.veils.size(), lit, deepest,
+                     lit == 0 ? "no shadows" : "the light of the last of these",
+                     matter ? ": less than 1/255 of them is seen" : "");
+}
+
+/// What is not exact in this picture, in words; empty: everything is.
+std::vector<std::string> approximations(const Stats& stats) {
+  std::vector<std::string> notes;
+  for (const std::string& warning : stats.view.scene.warnings)
+    if (warning.starts_with(io::kAlphaNote)) notes.push_back(warning);
+  if (stats.drawing.traits.tinted && !stats.geometry.filters.empty())
+    for (const std::string& note : {darkChannels(stats), limitedVeils(stats)})
+      if (!note.empty()) notes.push_back(note);
+  if (!stats.drawing.traits.tinted && !stats.geometry.filters.empty())
+    notes.push_back("surfaces that let light through count as opaque");
+  const auto& lights = stats.drawing.shading.stats.lights;
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (lights[i].soft)
+      notes.push_back(fmt::format("light {} is {} points of it: an estimated error of {:.4f}", i,
+                                  lights[i].soft->samples, lights[i].soft->error));
+  return notes;
+}
+
 double total(const std::vector<shadow::PhaseTime>& phases) {
   double sum = 0.0;
   for (const auto& phase : phases) sum += phase.milliseconds;
@@ -133,6 +189,7 @@ std::string statsJson(const Stats& stats) {
   const auto parts = partNames(stats.view.scene, stats.geometry);
   for (std::size_t i = 0; i < shading.stats.lights.size(); ++i)
     json["lights"].push_back(lightJson(stats.view.lights[i], shading.stats.lights[i], shading.masks[i], parts));
+  json["approximated"] = approximations(stats);
   json["phases_ms"] = phasesJson(stats.phases);
   json["shade_phases_ms"] = phasesJson(shading.stats.phases);
   json["total_ms"] = total(stats.phases);
@@ -157,6 +214,7 @@ std::string statsText(const Stats& stats) {
   for (const auto& light : stats.drawing.shading.stats.lights)
     if (light.volumeFragments)
       text += fmt::format("volumes    {} triangles, {} pixels filled\n", light.volumeTriangles, *light.volumeFragments);
+  for (const std::string& note : approximations(stats)) text += fmt::format("approximated: {}\n", note);
   for (const auto& phase : stats.phases) text += fmt::format("{:<10} {:8.1f} ms\n", phase.name, phase.milliseconds);
   for (const auto& phase : stats.drawing.shading.stats.phases)
     text += fmt::format("  {:<18} {:8.1f} ms\n", phase.name, phase.milliseconds);

@@ -35,6 +35,12 @@ std::vector<TexturedTriangle> square(double size) {
   return {flat({Vec2(0, 0), Vec2(size, 0), Vec2(size, size)}), flat({Vec2(0, 0), Vec2(size, size), Vec2(0, size)})};
 }
 
+std::optional<CutPieces> cut(const std::vector<TexturedTriangle>& triangles, const Coverage& coverage,
+                             const CutRule& rule, std::size_t level, std::size_t most) {
+  std::size_t effort = 10'000'000;
+  return cutByCoverage(triangles, coverage, rule, level, most, effort);
+}
+
 double areaOf(const std::array<Vec3, 3>& t) { return glm::length(glm::cross(t[1] - t[0], t[2] - t[0])) / 2; }
 double areaOf(const CutPieces& pieces) {
   double sum = 0.0;
@@ -79,7 +85,7 @@ TEST(AlphaCut, PiecesAreWhatTheTexelsSay) {
     };
     const std::array<Vec2, 3> places = {corner(), corner(), corner()};
     if (std::abs(cross(places[1] - places[0], places[2] - places[0])) < 1e-3) continue;
-    const auto pieces = cutByCoverage({flat(places)}, coverage, rule, 0, 100'000);
+    const auto pieces = cut({flat(places)}, coverage, rule, 0, 100'000);
     ASSERT_TRUE(pieces);
     EXPECT_EQ(pieces->worstArea, 0.0);
     for (int i = 0; i < 400; ++i) {
@@ -127,7 +133,7 @@ TEST(AlphaCut, NeighboursShareTheirCorners) {
                                 ".######."
                                 ".######."
                                 "........");
-  const auto pieces = cutByCoverage(square(1.0), ring, {.decides = true, .u = Wrap::clamp, .v = Wrap::clamp}, 0, 1000);
+  const auto pieces = cut(square(1.0), ring, {.decides = true, .u = Wrap::clamp, .v = Wrap::clamp}, 0, 1000);
   ASSERT_TRUE(pieces);
   EXPECT_NEAR(areaOf(*pieces), 33.0 / 64, 1e-12);
   EXPECT_NEAR(borderOf(*pieces), (24 + 8 + 2) / 8.0, 1e-12);
@@ -136,12 +142,12 @@ TEST(AlphaCut, NeighboursShareTheirCorners) {
 
 TEST(AlphaCut, AFenceIsAsManyPiecesAsItHasBars) {
   const Coverage bars = texture(8, 2, ".##..##..##..##.");
-  const auto pieces = cutByCoverage(square(1.0), bars, {.decides = true}, 0, 1000);
+  const auto pieces = cut(square(1.0), bars, {.decides = true}, 0, 1000);
   ASSERT_TRUE(pieces);
   EXPECT_NEAR(areaOf(*pieces), 0.5, 1e-12);
   EXPECT_LE(pieces->triangles.size(), 24u);
   // Ten times across: the texture repeats, and the bars join over its seam.
-  const auto many = cutByCoverage(square(10.0), bars, {.decides = true}, 0, 1000);
+  const auto many = cut(square(10.0), bars, {.decides = true}, 0, 1000);
   ASSERT_TRUE(many);
   EXPECT_NEAR(areaOf(*many), 50.0, 1e-9);
 }
@@ -149,7 +155,7 @@ TEST(AlphaCut, AFenceIsAsManyPiecesAsItHasBars) {
 TEST(AlphaCut, WhatIsThereInPartIsCutWhereItChanges) {
   const Coverage halves = texture(2, 1, "#-");
   const CutRule rule{.factor = 0.5, .u = Wrap::clamp, .v = Wrap::clamp};
-  const auto pieces = cutByCoverage(square(1.0), halves, rule, 0, 1000);
+  const auto pieces = cut(square(1.0), halves, rule, 0, 1000);
   ASSERT_TRUE(pieces);
   EXPECT_NEAR(areaOf(*pieces), 1.0, 1e-12);
   for (std::size_t t = 0; t < pieces->triangles.size(); ++t) {
@@ -164,7 +170,7 @@ TEST(AlphaCut, SoftAlphaKeepsItsMean) {
   std::mt19937 random(8);
   for (int round = 0; round < 20; ++round) {
     const Coverage noise = randomTexture(random, 16, 16, false);
-    const auto pieces = cutByCoverage(square(1.0), noise, {}, 0, 100'000);
+    const auto pieces = cut(square(1.0), noise, {}, 0, 100'000);
     ASSERT_TRUE(pieces);
     double sum = 0.0;
     for (std::size_t t = 0; t < pieces->triangles.size(); ++t) sum += pieces->parts[t] * areaOf(pieces->triangles[t]);
@@ -178,7 +184,7 @@ TEST(AlphaCut, EveryLevelDecidesByHalfItsCellsAndSaysHowFarItIsOff) {
   const Coverage noise = randomTexture(random, 64, 64, true);
   const CutRule rule{.decides = true};
   for (std::size_t level = 0; level <= noise.levels(); ++level) {
-    const auto pieces = cutByCoverage(square(1.0), noise, rule, level, 100'000);
+    const auto pieces = cut(square(1.0), noise, rule, level, 100'000);
     ASSERT_TRUE(pieces);
     const double off = std::abs(areaOf(*pieces) - noise.mean() / 65535);
     EXPECT_LE(off, pieces->worstArea + 1e-3) << level;
@@ -189,8 +195,12 @@ TEST(AlphaCut, EveryLevelDecidesByHalfItsCellsAndSaysHowFarItIsOff) {
 TEST(AlphaCut, LimitsHold) {
   std::mt19937 random(3);
   const Coverage noise = randomTexture(random, 512, 512, true);
-  EXPECT_FALSE(cutByCoverage(square(1.0), noise, {.decides = true}, 0, 1000));
-  EXPECT_TRUE(cutByCoverage(square(1.0), noise, {.decides = true}, noise.levels(), 2));
+  EXPECT_FALSE(cut(square(1.0), noise, {.decides = true}, 0, 1000));
+  EXPECT_TRUE(cut(square(1.0), noise, {.decides = true}, noise.levels(), 2));
+  std::size_t effort = 5000;
+  EXPECT_FALSE(cutByCoverage(square(1.0), noise, {.decides = true}, 0, 1'000'000, effort));
+  EXPECT_EQ(effort, 0u);
+  EXPECT_TRUE(cutByCoverage(square(1.0), noise, {.decides = true}, noise.levels(), 1'000'000, effort));
   EXPECT_EQ(cellsToLookAt(square(1.0), noise, 0), 2.0 * 512 * 512);
   EXPECT_GT(cellsToLookAt(square(1e4), noise, 0), 1e12);
   EXPECT_EQ(cellsToLookAt(square(1e4), noise, noise.levels()), 0.0);
@@ -205,17 +215,17 @@ TEST(AlphaCut, PlacesThatAreNoneTakeTheMean) {
     t.places[1].x = value;
     bad.push_back(t);
   }
-  const auto pieces = cutByCoverage(bad, most, {.decides = true}, 0, 100);
+  const auto pieces = cut(bad, most, {.decides = true}, 0, 100);
   ASSERT_TRUE(pieces);
   EXPECT_EQ(pieces->triangles.size(), bad.size());
   EXPECT_EQ(pieces->unplaced, bad.size());
   EXPECT_NEAR(pieces->worstArea, 0.25, 1e-4);
   // All corners in one place, or on a line, have what is there.
   const auto point =
-      cutByCoverage({flat({Vec2(0.75, 0.75), Vec2(0.75, 0.75), Vec2(0.75, 0.75)})}, most, {.decides = true}, 0, 100);
+      cut({flat({Vec2(0.75, 0.75), Vec2(0.75, 0.75), Vec2(0.75, 0.75)})}, most, {.decides = true}, 0, 100);
   ASSERT_TRUE(point);
   EXPECT_EQ(point->dropped, 1u);
-  EXPECT_TRUE(cutByCoverage({flat({Vec2(0, 0), Vec2(1, 1), Vec2(2, 2)})}, most, {.decides = true}, 0, 100));
+  EXPECT_TRUE(cut({flat({Vec2(0, 0), Vec2(1, 1), Vec2(2, 2)})}, most, {.decides = true}, 0, 100));
 }
 
 TEST(AlphaCut, CornersStayTheirOwnBits) {
@@ -223,7 +233,7 @@ TEST(AlphaCut, CornersStayTheirOwnBits) {
   TexturedTriangle t;
   t.corners = {Vec3(0.1, 1e5, 0.3), Vec3(7.7, 1e5 + 0.1, 0.2), Vec3(0.3, 1e5 + 3.3, 9.9)};
   t.places = {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
-  const auto pieces = cutByCoverage({t}, ring, {.decides = true}, 0, 100);
+  const auto pieces = cut({t}, ring, {.decides = true}, 0, 100);
   ASSERT_TRUE(pieces);
   for (const Vec3& corner : t.corners) {
     bool found = false;

@@ -214,6 +214,32 @@ TEST(GltfAlpha, LimitsAndWholeTriangles) {
   EXPECT_FALSE(loadScene("absent.gltf", options));
 }
 
+// Hundreds of meshes, each of noise that asks for a million pieces.
+TEST(GltfAlpha, NoiseAllOverIsReadInTimeAndWithinTheLimit) {
+  image::RgbaImage noise(512, 512);
+  unsigned state = 1;
+  for (auto& texel : noise.pixels()) texel.a = (state = state * 1664525u + 1013904223u) >> 31 != 0 ? 255 : 0;
+  Sheet sheet;
+  sheet.first = {0, 0, 9, 0, 9, 9, 0, 9};
+  std::string meshes = R"("meshes":[)", nodes = R"("nodes":[)";
+  for (int i = 0; i < 300; ++i) {
+    const char* comma = i == 0 ? "" : ",";
+    meshes += comma +
+              std::string(R"({"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"indices":3,"material":0}]})");
+    nodes += comma + fmt::format(R"({{"mesh":{}}})", i);
+  }
+  sheet.nodes = nodes + "]";
+  std::string text = gltfOf(sheet);
+  const auto begin = text.find(R"("meshes":[)"), end = text.find(R"("nodes":[)");
+  text.replace(begin, end - begin, meshes + "],");
+  const test::Folder folder;
+  ASSERT_TRUE(png::write(folder.path() / "a.png", noise));
+  const auto scene = loadScene(folder.write("noise.gltf", text));
+  ASSERT_TRUE(scene) << scene.error().text();
+  EXPECT_LE(scene::triangleCount(*scene), 250'600u);
+  EXPECT_FALSE(scene->warnings.empty());
+}
+
 TEST(GltfAlpha, CoordinatesThatAreNoneOrHuge) {
   Sheet sheet;
   sheet.attributes = R"("POSITION":0)";

@@ -107,18 +107,19 @@ UMBRAGE_IN_BLOCKS bool sumInBlock(const BlockPatch& p, const Span& rows, const S
   Float8 f[4];
   for (int k = 0; k < 4; ++k) f[k] = (p.at[k] + p.dy[k] * static_cast<float>(rows.begin)) + p.dx[k] * lane;
   Int8 unsure{};
+  const bool few = layers.end - layers.begin <= 2;  // asking costs more than adding nothing
   for (int row = rows.begin; row < rows.end; ++row) {
     Int8 in = f[0] > p.doubt[0], maybeIn = f[0] > -p.doubt[0];
     for (int k = 1; k < 3; ++k) in &= f[k] > p.doubt[k], maybeIn &= f[k] > -p.doubt[k];
     Int8 left = maybeIn;
-    for (int i = layers.begin; i < layers.end && anyOf(left); ++i) {
+    for (int i = layers.begin; i < layers.end && (few || anyOf(left)); ++i) {
       const std::size_t l = block.fromEye(static_cast<std::size_t>(i));
       if (block.receivers[l] == 0) continue;
       const Float8 nearness = reinterpret_cast<const Float8&>(block.nearness(l)[row * kBlock]);
       const Float8 before = f[3] - nearness * p.distance;
       const Int8 sure = left & in & (before > p.doubt[3]);
       unsure |= (left & (before > -p.doubt[3])) ^ sure;
-      if (!anyOf(sure)) continue;
+      if (!few && !anyOf(sure)) continue;
       left &= ~sure;
       TintField::Sums& sums = block.sumsOf(l);
       for (std::size_t c = 0; c < kUsed; ++c)

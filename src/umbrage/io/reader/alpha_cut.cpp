@@ -254,8 +254,8 @@ class Joints {
 
 class Cutter {
  public:
-  Cutter(const Coverage& coverage, const CutRule& rule, std::size_t level, std::size_t most)
-      : coverage_(coverage), rule_(rule), level_(level), most_(most) {}
+  Cutter(const Coverage& coverage, const CutRule& rule, std::size_t level, std::size_t most, std::size_t& effort)
+      : coverage_(coverage), rule_(rule), level_(level), most_(most), effort_(effort) {}
 
   /// False: there are too many.
   [[nodiscard]] bool add(const TexturedTriangle& given) {
@@ -267,20 +267,18 @@ class Cutter {
       keep(given.corners, coverage_.mean());
       return out_.triangles.size() <= most_;
     }
-    const std::vector<Piece> pieces = piecesOf(triangle, cells, rule_, mostPieces() - looked_);
-    looked_ += pieces.size();
+    const std::vector<Piece> pieces = piecesOf(triangle, cells, rule_, effort_);
+    effort_ -= pieces.empty() ? effort_ : pieces.size();
     if (pieces.empty()) return false;
     if (pieces.size() == 1 || triangle.isFlat())
       keepWhole(triangle, pieces);
     else
       cut(triangle, pieces);
-    return out_.triangles.size() <= most_ && looked_ < mostPieces();
+    return out_.triangles.size() <= most_;
   }
   [[nodiscard]] CutPieces take() { return std::move(out_); }
 
  private:
-  /// Of the boxes, so many of which may lie beside the triangles.
-  [[nodiscard]] std::size_t mostPieces() const { return 4 * most_ + 4096; }
   [[nodiscard]] double partOf(double mean) const {
     if (rule_.decides) return mean >= kHalf ? 1.0 : 0.0;
     return std::clamp(mean * rule_.factor / CoverageCells::kAll, 0.0, 1.0);
@@ -381,15 +379,17 @@ class Cutter {
 
   const Coverage& coverage_;
   const CutRule& rule_;
-  std::size_t level_, most_, looked_ = 0;
+  std::size_t level_, most_;
+  std::size_t& effort_;
   CutPieces out_;
 };
 
 }  // namespace
 
 std::optional<CutPieces> cutByCoverage(const std::vector<TexturedTriangle>& triangles, const Coverage& coverage,
-                                       const CutRule& rule, std::size_t level, std::size_t mostTriangles) {
-  Cutter cutter(coverage, rule, level, mostTriangles);
+                                       const CutRule& rule, std::size_t level, std::size_t mostTriangles,
+                                       std::size_t& effort) {
+  Cutter cutter(coverage, rule, level, mostTriangles, effort);
   for (const TexturedTriangle& triangle : triangles)
     if (!cutter.add(triangle)) return std::nullopt;
   return cutter.take();

@@ -48,10 +48,10 @@ struct CutPieces {
 /// 3. Where nothing is decided, cells that differ by at most 1/16 are alike, and their piece is there to their mean part.
 ///
 /// `level`: of the coverage; from levels() on, triangles stay whole, by the mean of the texture. None where there are more than
-/// `mostTriangles`, or so many cells that it would take too long.
+/// `mostTriangles`, or where `effort`, from which every rectangle of cells that is looked at is taken (a microsecond or less), does not suffice.
 [[nodiscard]] std::optional<CutPieces> cutByCoverage(const std::vector<TexturedTriangle>& triangles,
                                                      const Coverage& coverage, const CutRule& rule, std::size_t level,
-                                                     std::size_t mostTriangles);
+                                                     std::size_t mostTriangles, std::size_t& effort);
 
 /// So many cells must be looked at: what the time for cutting grows with.
 [[nodiscard]] double cellsToLookAt(const std::vector<TexturedTriangle>& triangles, const Coverage& coverage,

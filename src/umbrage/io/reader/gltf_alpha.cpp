@@ -13,8 +13,10 @@
 namespace umbrage::io::reader {
 namespace {
 
-/// Cells that may be looked at for all primitives together: about half a second.
-constexpr double kMostCells = 64e6;
+/// Cells that may be looked at for all primitives together: a quarter of a second.
+constexpr double kMostCells = 40e6;
+/// Rectangles of cells: about a second.
+constexpr std::size_t kMostEffort = 2'000'000;
 /// With textures that let something through; what they take of memory while they are cut.
 constexpr std::size_t kMostTextured = 2'000'000;
 
@@ -33,7 +35,8 @@ bool hasAlpha(const tinygltf::Model& model, int accessor) {
 
 }  // namespace
 
-GltfAlpha::GltfAlpha(const tinygltf::Model& model, GltfTextures textures, const AlphaLimits& limits) : model_(model) {
+GltfAlpha::GltfAlpha(const tinygltf::Model& model, GltfTextures textures, const AlphaLimits& limits)
+    : model_(model), effort_(kMostEffort) {
   findJobs(textures);
   for (auto& [key, job] : jobs_) {
     const Coverage& coverage = *job.material.coverage;
@@ -117,35 +120,38 @@ void GltfAlpha::boundWork() {
   }
 }
 
-void GltfAlpha::cutAll(const AlphaLimits& limits) {
-  const auto cutOne = [&](Job& job) {
-    const Coverage& coverage = *job.material.coverage;
-    // A triangle that stays whole is none of the limit's.
-    const std::size_t most = job.triangles.size() + limits.mostTriangles / job.placings;
-    for (;; ++job.level) {
-      auto pieces = cutByCoverage(job.triangles, coverage, job.material.rule, job.level, most);
-      if (!pieces) continue;
-      job.cut = {std::move(*pieces), job.material.transmits, job.material.rule.decides};
-      return;
-    }
-  };
-  std::size_t total = 0, whole = 0;
-  std::vector<std::pair<std::size_t, Job*>> costs;
-  for (auto& [key, job] : jobs_) {
-    cutOne(job);
-    total += job.cost(), whole += job.placings * job.triangles.size();
-    costs.emplace_back(job.cost(), &job);
+void GltfAlpha::cutOne(Job& job, const AlphaLimits& limits) {
+  const Coverage& coverage = *job.material.coverage;
+  // A triangle that stays whole is none of the limit's.
+  const std::size_t most = job.triangles.size() + limits.mostTriangles / job.placings;
+  for (;; ++job.level) {
+    if (effort_ == 0) job.level = std::max(job.level, coverage.levels());
+    auto pieces = cutByCoverage(job.triangles, coverage, job.material.rule, job.level, most, effort_);
+    if (!pieces) continue;
+    job.cut = {std::move(*pieces), job.material.transmits, job.material.rule.decides};
+    return;
   }
-  std::make_heap(costs.begin(), costs.end());
-  while (total > whole + limits.mostTriangles) {
-    std::pop_heap(costs.begin(), costs.end());
-    auto& [cost, job] = costs.back();
-    if (job->level >= job->material.coverage->levels()) break;
-    total -= cost;
-    ++job->level;
-    cutOne(*job);
-    total += cost = job->cost();
-    std::push_heap(costs.begin(), costs.end());
+}
+
+// Whenever there are too many, what came to more by the most is done again with coarser cells: so there never are many more than the limit.
+void GltfAlpha::cutAll(const AlphaLimits& limits) {
+  long total = 0;
+  std::vector<std::pair<long, Job*>> excesses;
+  for (auto& [key, job] : jobs_) {
+    cutOne(job, limits);
+    total += job.excess();
+    excesses.emplace_back(job.excess(), &job);
+    std::push_heap(excesses.begin(), excesses.end());
+    // Triangles that stay whole exceed nothing, so the largest excess is that of a job that can be done more coarsely.
+    while (total > static_cast<long>(limits.mostTriangles)) {
+      std::pop_heap(excesses.begin(), excesses.end());
+      auto& [excess, most] = excesses.back();
+      total -= excess;
+      ++most->level;
+      cutOne(*most, limits);
+      total += excess = most->excess();
+      std::push_heap(excesses.begin(), excesses.end());
+    }
   }
 }
 

@@ -40,18 +40,23 @@ class GltfAlpha {
     std::vector<TexturedTriangle> triangles;
     std::size_t placings = 1, level = 0;
     CutPrimitive cut;
-    bool done = false;
-    [[nodiscard]] std::size_t cost() const { return placings * cut.pieces.triangles.size(); }
+    /// Triangles that there are more of, all placings counted; below 0: fewer.
+    [[nodiscard]] long excess() const {
+      return static_cast<long>(placings) *
+             (static_cast<long>(cut.pieces.triangles.size()) - static_cast<long>(triangles.size()));
+    }
   };
   using Key = std::pair<int, std::size_t>;
   void findJobs(GltfTextures& textures);
   [[nodiscard]] std::vector<TexturedTriangle> placed(const tinygltf::Primitive& primitive,
                                                      const MaterialCoverage& material);
   void boundWork();
+  void cutOne(Job& job, const AlphaLimits& limits);
   void cutAll(const AlphaLimits& limits);
 
   const tinygltf::Model& model_;
   std::map<Key, Job> jobs_;
+  std::size_t effort_;
   Complaints complaints_;
 };
 
