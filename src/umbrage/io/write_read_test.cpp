@@ -239,6 +239,21 @@ std::vector<std::array<Vec3, 3>> properTriangles(const scene::Scene& s) {
   return all;
 }
 
+TEST(WriteRead, GlbKeepsWhatShinesMirrorsAndBends) {
+  auto room = samples::make("cornell"), balls = samples::make("still_life");
+  ASSERT_TRUE(room && balls);
+  for (const scene::Scene& given : {*room, *balls}) {
+    const scene::Scene back = returned(given, "glb");
+    for (const scene::Material& material : given.materials) {
+      const auto same = std::ranges::find(back.materials, material.name, &scene::Material::name);
+      ASSERT_NE(same, back.materials.end());
+      EXPECT_LT(glm::length(same->emission - material.emission), 1e-12) << material.name;
+      EXPECT_NEAR(same->mirror, material.mirror, 1e-12) << material.name;
+      EXPECT_EQ(same->ior, material.ior) << material.name;
+    }
+  }
+}
+
 RC_GTEST_PROP(WriteRead, AnySoupComesBack, ()) {
   const scene::Scene given = anyScene();
   const auto extension = *rc::gen::element<std::string>("glb", "iv", "city.json", "obj");
