@@ -89,6 +89,36 @@ TEST(PlanPasses, DepthBoundsHoldForVolumesAlone) {
   EXPECT_NE(describe(list).find("depth bounds 0.25"), std::string::npos);
 }
 
+// Else a count that has to go below 0 on the way would stop there.
+TEST(PlanPasses, CountersThatSaturateCountUpBeforeTheyCountDown) {
+  const LightPlan light{.groups = {{.failSides = true, .failCaps = true, .turnedSides = true}},
+                        .volumeArea = kAll,
+                        .litArea = kAll,
+                        .overflow = Overflow::saturates};
+  std::string order;
+  for (const PassStep& step : wholeFrame({light}, Product::masks).steps)
+    for (const gl::StencilFace& face : {step.state.stencil.front, step.state.stencil.back}) {
+      if (face.depthFail == gl::StencilOp::incrementToLimit) order += '+';
+      if (face.depthFail == gl::StencilOp::decrementToLimit) order += '-';
+    }
+  EXPECT_EQ(order, "+++---");
+}
+
+// The same corners in the same order, so up and down are exchanged.
+TEST(PlanPasses, TurnedSidesCountTheOtherWayRound) {
+  const LightPlan light{
+      .groups = {{.failSides = true, .turnedSides = true}}, .volumeArea = kAll, .litArea = kAll};
+  gl::StencilState straight, turned;
+  for (const PassStep& step : wholeFrame({light}, Product::masks).steps) {
+    if (step.draw == Draw::failSides) straight = step.state.stencil;
+    if (step.draw == Draw::turnedSides) turned = step.state.stencil;
+  }
+  EXPECT_TRUE(straight.test && turned.test);
+  EXPECT_EQ(straight.front, turned.back);
+  EXPECT_EQ(straight.back, turned.front);
+  EXPECT_FALSE(straight.front == straight.back);
+}
+
 TEST(PlanPasses, TilesOfReceivers) {
   EXPECT_TRUE(approval::approved("passes_tiles", describe(planTiles(0, {0, 0, 4, 3}))));
 }
