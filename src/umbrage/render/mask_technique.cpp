@@ -70,7 +70,7 @@ class MaskTechnique final : public GlTechnique {
       return tl::unexpected(done.error());
     const View view = viewOf(frame.camera, geometry_->surfaces.bounds.radius());
     readMasks(scope, *target, view, frame.lights.size(), readSurface(scope, *target), shading);
-    shading.unshadowed = unshadowedPixels(shading.surface);
+    shading.unshadowed = unshadowedPixels(frame.camera, shading.surface);
     clock.end("readback");
     return shading;
   }
@@ -241,15 +241,31 @@ class MaskTechnique final : public GlTechnique {
     pass.draw(own_->scene->drawn().vertices(), 3);
   }
 
-  [[nodiscard]] image::GreyImage unshadowedPixels(const shadow::SurfaceBuffer& seen) const {
+  // A rasteriser snaps corners to 1/256 pixel, so a pixel may show a triangle that ends just beside its centre. What painters that know only some surfaces say there
+  // is true of where that surface would go on, under a neighbour perhaps.
+  [[nodiscard]] image::GreyImage unshadowedPixels(const scene::Camera& camera,
+                                                  const shadow::SurfaceBuffer& seen) const {
     const auto flags = own_->painter->unshadowed();
     if (flags.empty()) return {};
     image::GreyImage pixels(seen.triangle.width(), seen.triangle.height());
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      const std::uint32_t triangle = seen.triangle.pixels()[i];
-      pixels.pixels()[i] = triangle != shadow::kNoTriangle ? flags[triangle] : 0;
-    }
+    const scene::PixelRays rays = scene::pixelRays(camera);
+    for (int y = 0; y < camera.height; ++y)
+      for (int x = 0; x < camera.width; ++x) {
+        const std::uint32_t t = seen.triangle(x, y);
+        if (t != shadow::kNoTriangle)
+          pixels(x, y) = flags[t] != 0 || !isHit(t, camera.eye, rays.through(x + 0.5, y + 0.5)) ? 1 : 0;
+      }
     return pixels;
+  }
+
+  [[nodiscard]] bool isHit(std::uint32_t triangle, const Vec3& eye, const Vec3& ray) const {
+    const scene::Surfaces& surfaces = geometry_->surfaces;
+    const Vec3 from = eye - surfaces.origin;
+    const Vec3 a = surfaces.corner(triangle, 0) - from, b = surfaces.corner(triangle, 1) - from,
+               c = surfaces.corner(triangle, 2) - from;
+    const double ab = glm::dot(glm::cross(a, b), ray), bc = glm::dot(glm::cross(b, c), ray),
+                 ca = glm::dot(glm::cross(c, a), ray);
+    return (ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0);
   }
 
   shadow::Traits traits_;

@@ -23,8 +23,8 @@ constexpr std::size_t kChunk = 256;  ///< casters that are left out together
 // As planar_shadow.vert has it.
 struct PlaneBlock {
   Vec4f plane, light;
-  float lightHeight, slack;
-  std::array<float, 2> unused{};
+  float lightHeight;
+  std::array<float, 3> unused{};
 };
 
 struct BitBlock {
@@ -85,22 +85,6 @@ bool mayShade(const Box3& box, const Vec4& plane, const Vec4& light, double ligh
   const Span height = spanOver(box, plane);
   const double rounding = 1e-9 * (std::abs(height.low) + std::abs(height.high) + std::abs(plane.w));
   return height.high > -rounding && (light.w == 0.0 || height.low * light.w < lightHeight + rounding * light.w);
-}
-
-// Rasterisers snap corners to 1/256 pixel, so a pixel may show a triangle that ends so far beside it; a neighbour that rises from that edge would shade it.
-constexpr double kSnap = 2.0 / 256.0;
-
-// How low a caster over a plane lies in it, at distance 1 along the view: what light raises by kSnap where it falls flattest.
-double slackFor(const scene::Camera& camera, const shadow::ScenePlane& plane, const Vec4& light, double lightHeight) {
-  double farthest = light.w == 0.0 ? 1.0 : 0.0;
-  for (int corner = 0; corner < 8 && light.w != 0.0; ++corner) {
-    const Vec3 at((corner & 1) != 0 ? plane.bounds.max.x : plane.bounds.min.x,
-                  (corner & 2) != 0 ? plane.bounds.max.y : plane.bounds.min.y,
-                  (corner & 4) != 0 ? plane.bounds.max.z : plane.bounds.min.z);
-    farthest = std::max(farthest, glm::length(Vec3(light) - at));
-  }
-  const double pixel = 2.0 * tan(0.5 * camera.fovY) / camera.height;
-  return farthest > 0.0 ? kSnap * pixel * std::min(1.0, lightHeight / farthest) : 0.0;
 }
 
 class Planar final : public render::MaskPainter {
@@ -198,13 +182,11 @@ class Planar final : public render::MaskPainter {
     const auto ranges = castersFor(which, equation, lamp, std::abs(lightSide));
     if (ranges.empty()) return {};
     const Vec3 eye = frame.view.eye - origin;
-    const double slack = slackFor(frame.camera, plane, lamp, std::abs(lightSide));
     lamp = Vec4(Vec3(lamp) - eye * lamp.w, lamp.w);
     const double size = std::max(glm::length(Vec3(lamp)), lamp.w);
     const Vec4 fromEye(Vec3(equation), glm::dot(Vec3(equation), eye) + equation.w);
-    if (auto done =
-            uniforms_.setOne(PlaneBlock{Vec4f(fromEye), Vec4f(lamp / size),
-                                        static_cast<float>(std::abs(lightSide) / size), static_cast<float>(slack)});
+    if (auto done = uniforms_.setOne(
+            PlaneBlock{Vec4f(fromEye), Vec4f(lamp / size), static_cast<float>(std::abs(lightSide) / size)});
         !done)
       return done;
     draw(frame, light, which, area, ranges);

@@ -12,7 +12,6 @@ layout(std140, binding = 1) uniform Plane {
   vec4 plane;         // its normal towards the light, and its distance, relative to the eye
   vec4 light;         // homogeneous, relative to the eye, its largest component about 1
   float lightHeight;  // plane . light, above 0
-  float slack;        // times the distance along the view: how low a caster lies in the plane
 };
 layout(std430, binding = 0) readonly buffer Positions { float position[]; };
 
@@ -27,7 +26,7 @@ void main() {
   vec3 p = (positionOf(uint(gl_VertexID)) - eyeHigh.xyz) - eyeLow.xyz;
   float height = dot(plane.xyz, p) + plane.w;
   vec4 onPlane = vec4(lightHeight * p - height * light.xyz, lightHeight - height * light.w);
-  gl_ClipDistance[0] = height - slack * (toClip * vec4(p, 1.0)).w;
+  gl_ClipDistance[0] = height;
   gl_ClipDistance[1] = onPlane.w;
   gl_Position = toClip * onPlane;
 }
