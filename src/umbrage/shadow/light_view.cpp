@@ -1,10 +1,14 @@
 #include "umbrage/shadow/light_view.hpp"
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
 namespace umbrage::shadow {
 namespace {
+
+// Of no triangles, or of triangles in one point: the scale stays finite, so that 0 times it is 0.
+constexpr double kSmallestExtent = 1e-280;
 
 // What a grid over one coordinate should cover: all points, but for those that lie so far off the others that they would take
 // the grid away from them; the outermost cells hold these.
@@ -106,7 +110,7 @@ ParallelView::ParallelView(const CasterSet& casters, const Silhouette& silhouett
   const auto [lowX, highX] = extentOfMost(all, &Vec2::x);
   const auto [lowY, highY] = extentOfMost(all, &Vec2::y);
   low_ = {lowX, lowY};
-  scale_ = resolution / std::max({highX - lowX, highY - lowY, std::numeric_limits<double>::min()});
+  scale_ = resolution / std::max({highX - lowX, highY - lowY, kSmallestExtent});
 }
 
 GridPolygon CubeView::project(int face, const std::array<Vec3, 3>& corners) const {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -43,7 +42,9 @@ class GridCells {
   // Rounding of projected coordinates, in cells: generous, since a cell too many does no harm.
   static constexpr double kSlack = 1e-6;
 
-  [[nodiscard]] int cell(double v) const { return static_cast<int>(std::clamp(std::floor(v), 0.0, resolution_ - 1.0)); }
+  [[nodiscard]] int cell(double v) const {
+    return v > 0.0 ? (v < resolution_ ? static_cast<int>(v) : resolution_ - 1) : 0;
+  }
   [[nodiscard]] std::size_t index(int column, int row) const {
     return std::size_t(row) * std::size_t(resolution_) + std::size_t(column);
   }

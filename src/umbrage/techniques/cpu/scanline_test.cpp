@@ -136,6 +136,19 @@ TEST(Scanline, CountsWhatZPassCpuCountsInSoups) {
   }
 }
 
+TEST(ShadowLists, OfNothingAreEmptyEverywhere) {
+  const auto geometry = shadow::makeGeometry(scene::withGround(scene::Scene{}, 0.0));
+  for (const Vec4& light : {Vec4(0, 0, 1, 0), Vec4(1, 2, 3, 1)}) {
+    const detail::ShadowLists lists(geometry->casters, shadow::findSilhouette(geometry->casters, light));
+    EXPECT_EQ(lists.size(), 0u);
+    for (const Vec3& point : {Vec3(0), Vec3(0, 0, -5), Vec3(1e30, 0, 0), Vec3(-3, 1e-30, 2)}) {
+      const auto cell = lists.cellOf(point);
+      ASSERT_TRUE(cell);
+      EXPECT_TRUE(lists.of(*cell).empty());
+    }
+  }
+}
+
 // Every triangle is listed in the cells of all its points, for both kinds of lights.
 TEST(ShadowLists, HoldEveryTriangleWhereTheLightSeesIt) {
   shapes::Random random(4);
