@@ -151,6 +151,22 @@ TEST(Cut, ASpotsConeIsThatOfItsMask) {
   }
 }
 
+// A disc that a file's rounded matrices left 2.5e-6 radians out of the plane of the wall it touches (a windmill's tower): the wall is before half of it
+// by less than single precision tells at that distance, and hides nothing. What stands on both shadows both.
+TEST(Cut, NearlyCoplanarFacesHideNothingOfEachOther) {
+  const double tilt = 2.5e-6;
+  const auto disc = shapes::quad({-1, -1, 0.3 - tilt}, {1, -1, 0.3 - tilt}, {1, 1, 0.3 + tilt}, {-1, 1, 0.3 + tilt});
+  const auto wall = shapes::quad({-1, -7, 0.3}, {1, -7, 0.3}, {1, 0, 0.3}, {-1, 0, 0.3});
+  const scene::Light light = sun({0.4, 0.5, -1});
+  const auto flush = cutAll({flat(-9, -9, 9, 9, -1), disc, wall}, {light});
+  EXPECT_NEAR(flush.areas[1].lights[0].lit, 4.0, 1e-5);
+  EXPECT_NEAR(flush.areas[2].lights[0].lit, 14.0, 1e-5);
+  const auto post =
+      cutAll({flat(-9, -9, 9, 9, -1), disc, wall, shapes::box({-0.5, -0.5, 0.3}, {-0.25, -0.25, 0.8})}, {light});
+  // The post stands on both; its shadow on either is its foot and what its edges sweep.
+  EXPECT_NEAR(post.areas[1].lights[0].shadowed, 0.0625 + 0.25 * 0.2 + 0.25 * 0.25, 1e-4);
+}
+
 // --- pieces ------------------------------------------------------------------------------------------------------------------------
 
 TEST(Cut, WhatNoBorderCrossesStaysAsItIs) {

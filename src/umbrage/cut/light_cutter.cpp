@@ -44,8 +44,16 @@ struct LightCutter::Parts {
     const double far = glm::length(casters.set.bounds.size()) +
                        (casters.set.bounds.empty() ? 0.0 : glm::length(casters.set.bounds.centre() - corners[0]));
     const double own = std::max(glm::length(corners[1] - corners[0]), glm::length(corners[2] - corners[0]));
-    const double sine = std::min(1.0, face.lightHeight / glm::length(towardsLight));
-    face.tolerance = kNothing * (own + far / sine);
+    face.sine = std::min(1.0, face.lightHeight / glm::length(towardsLight));
+    face.tolerance = kNothing * (own + far / face.sine);
+    face.light = towards;
+    face.lightFlat = {glm::dot(face.frame.e1, towardsLight), glm::dot(face.frame.e2, towardsLight)};
+    const auto& f = face.frame.flatCorners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 along = f[(k + 1) % 3] - f[k];
+      const Vec2 inwards = Vec2(-along.y, along.x) / glm::length(along);
+      face.inside[k] = Vec3(inwards, -glm::dot(inwards, f[k]));
+    }
     return face;
   }
 

@@ -6,9 +6,6 @@
 namespace umbrage::cut::detail {
 namespace {
 
-/// A point of the face as the light projects it: (u w, v w, w), w > 0.
-using Projected = Vec3;
-
 /// The part of a straight way, from parameter `begin` to `end`, on which some linear functions are not negative.
 class Clip {
  public:
@@ -32,16 +29,7 @@ class Clip {
 
 class Gatherer {
  public:
-  Gatherer(const Casters& casters, const Face& face) : casters_(casters), face_(face), light_(casters.light) {
-    const auto& f = face_.frame.flatCorners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 along = f[(k + 1) % 3] - f[k];
-      const Vec2 inwards = Vec2(-along.y, along.x) / glm::length(along);
-      inside_[k] = Vec3(inwards, -glm::dot(inwards, f[k]));
-    }
-    lightFlat_ = light_.w != 0.0 ? face_.frame.flat(Vec3(light_))
-                                 : Vec2(glm::dot(face_.frame.e1, Vec3(light_)), glm::dot(face_.frame.e2, Vec3(light_)));
-  }
+  Gatherer(const Casters& casters, const Face& face) : casters_(casters), face_(face), light_(casters.light) {}
 
   Borders gather() {
     silhouettes();
@@ -50,21 +38,12 @@ class Gatherer {
   }
 
  private:
-  // Away from the light onto the face's plane. The same numbers come out relative to the light and to the face; what is nearer loses less by rounding.
-  [[nodiscard]] Projected project(const Vec3& p) const {
-    const FaceFrame& f = face_.frame;
-    const Vec3 x = p - f.origin, y = p - Vec3(light_);
-    const bool fromLight = light_.w != 0.0 && glm::dot(y, y) < glm::dot(x, x);
-    const Vec3& from = fromLight ? y : x;
-    const double up = glm::dot(face_.up, from), h = face_.lightHeight;
-    return {glm::dot(f.e1, from) * h - lightFlat_.x * up, glm::dot(f.e2, from) * h - lightFlat_.y * up,
-            fromLight ? -up : h - light_.w * up};
+  void keepOverFace(Clip& clip, const Projected& a, const Projected& b) const {
+    for (const Vec3& inside : face_.inside) clip.keep(glm::dot(inside, a), glm::dot(inside, b));
   }
 
   // A way from `a` to `b`, projected, of which `clip` is left.
-  void add(const Projected& a, const Projected& b, Clip clip, Vec3 line) {
-    for (const Vec3& inside : inside_) clip.keep(glm::dot(inside, a), glm::dot(inside, b));
-    if (clip.empty()) return;
+  void add(const Projected& a, const Projected& b, const Clip& clip, const Vec3& line) {
     const double length = glm::length(Vec2(line));
     if (!(length > 0.0) || !std::isfinite(length)) return;
     const Projected p = a + clip.begin() * (b - a), q = a + clip.end() * (b - a);
@@ -81,14 +60,38 @@ class Gatherer {
     return {glm::dot(normal, f.e1), glm::dot(normal, f.e2), glm::dot(normal, f.origin - on)};
   }
 
-  void addEdge(std::uint32_t edge, bool standsOnFace) {
+  /// An edge of the casters over the face.
+  struct Edge {
+    Vec3 from, to;
+    Projected a, b;
+    double heightA, heightB;
+    Clip clip;  ///< to what lies over the face, seen from the light
+    [[nodiscard]] double highest() const {
+      const double slope = heightB - heightA;
+      return heightA + std::max(clip.begin() * slope, clip.end() * slope);
+    }
+  };
+  [[nodiscard]] Edge edgeOver(std::uint32_t edge) const {
     const shadow::CasterEdge& e = casters_.set.edges[edge];
-    const Vec3 a = casters_.set.position(e.a), b = casters_.set.position(e.b);
-    Clip clip;
-    if (!standsOnFace) clip.keep(face_.height(a), face_.height(b));
-    if (clip.empty()) return;
-    const Vec3 towards = Vec3(light_) - a * light_.w;
-    add(project(a), project(b), clip, lineOf(glm::cross(b - a, towards), a));
+    Edge out{casters_.set.position(e.a), casters_.set.position(e.b), {}, {}, 0.0, 0.0, {}};
+    out.a = face_.project(out.from), out.b = face_.project(out.to);
+    out.heightA = face_.height(out.from), out.heightB = face_.height(out.to);
+    keepOverFace(out.clip, out.a, out.b);
+    return out;
+  }
+
+  // Above this height an edge's triangles are all before the face.
+  [[nodiscard]] double nothingOf(std::uint32_t edge) const {
+    const shadow::CasterEdge& e = casters_.set.edges[edge];
+    double reach = face_.reach;
+    for (std::uint32_t u = e.begin; u < e.end; ++u)
+      reach = std::max(reach, double(casters_.reach[casters_.set.uses[u].triangle]));
+    return trace::resolution(reach);
+  }
+
+  void addEdge(const Edge& e) {
+    const Vec3 towards = Vec3(light_) - e.from * light_.w;
+    add(e.a, e.b, e.clip, lineOf(glm::cross(e.to - e.from, towards), e.from));
   }
 
   // --- edges between the face and the light -----------------------------------------------------------------------------------
@@ -111,17 +114,12 @@ class Gatherer {
       });
     };
     casters_.borderTree.visit(meets, [&](std::uint32_t item) {
-      const std::uint32_t edge = casters_.borders[item];
-      if (isBefore(edge)) addEdge(edge, false);
+      Edge edge = edgeOver(casters_.borders[item]);
+      if (edge.clip.empty() || edge.highest() <= nothingOf(casters_.borders[item])) return true;
+      edge.clip.keep(edge.heightA, edge.heightB);
+      addEdge(edge);
       return true;
     });
-  }
-
-  // Whether an end of it is.
-  [[nodiscard]] bool isBefore(std::uint32_t edge) const {
-    const shadow::CasterEdge& e = casters_.set.edges[edge];
-    const auto before = [&](const Vec3& p) { return face_.sideOf(p, face_.height(p)) > 0; };
-    return before(casters_.set.position(e.a)) || before(casters_.set.position(e.b));
   }
 
   [[nodiscard]] double largestCoordinate() const {
@@ -136,7 +134,8 @@ class Gatherer {
     Box3 box;
     for (const Vec3& p : face_.frame.corners) box.add(p);
     const double margin = 4.0 * trace::resolution(largestCoordinate());
-    box.min -= Vec3(margin), box.max += Vec3(margin);
+    // What lies so high over the face, seen from a low light, may stand beside it.
+    box.min -= Vec3(margin / face_.sine), box.max += Vec3(margin / face_.sine);
     const Vec3 normal = face_.up;
     const double offset = glm::dot(normal, face_.frame.origin);
     const auto meets = [&](const Box3& other) {
@@ -146,54 +145,58 @@ class Gatherer {
     };
     casters_.hidingTree.visit(meets, [&](std::uint32_t item) {
       const std::uint32_t t = casters_.hiding[item];
-      const Standing s = standing(casters_, face_, t);
-      if (s.crosses()) pierce(t, s);
-      if (s.before()) standOn(t, s);
+      if (!isBefore(casters_, face_, t)) return true;
+      pierce(t);
+      standOn(t);
       return true;
     });
   }
 
-  void pierce(std::uint32_t t, const Standing& s) {
-    std::array<Vec3, 3> points;
+  // A caster with parts on both sides of the face's plane.
+  void pierce(std::uint32_t t) {
+    std::array<Vec3, 3> corners, points;
+    std::array<double, 3> heights;
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = casters_.set.corner(t, static_cast<int>(k));
+      heights[k] = face_.height(corners[k]);
+    }
     std::size_t count = 0;
-    for (int k = 0; k < 3; ++k) {
-      const auto i = static_cast<std::size_t>(k), j = (i + 1) % 3;
-      const Vec3 a = casters_.set.corner(t, k), b = casters_.set.corner(t, static_cast<int>(j));
-      if (s.at[i] == 0) points[count++] = a;
-      if (s.at[i] * s.at[j] < 0) points[count++] = a + (s.heights[i] / (s.heights[i] - s.heights[j])) * (b - a);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      if (heights[i] == 0.0) points[count++] = corners[i];
+      if (heights[i] * heights[j] < 0.0 && count < 3)
+        points[count++] = corners[i] + (heights[i] / (heights[i] - heights[j])) * (corners[j] - corners[i]);
     }
     if (count != 2) return;
-    const trace::Corners c = casters_.corners(t);
-    const Vec3 normal = glm::cross(c.b - c.a, c.c - c.a);
-    add(Vec3(face_.frame.flat(points[0]), 1.0), Vec3(face_.frame.flat(points[1]), 1.0), {}, lineOf(normal, c.a));
+    const Projected a(face_.frame.flat(points[0]), 1.0), b(face_.frame.flat(points[1]), 1.0);
+    Clip clip;
+    keepOverFace(clip, a, b);
+    if (clip.empty()) return;
+    add(a, b, clip, lineOf(glm::cross(corners[1] - corners[0], corners[2] - corners[0]), corners[0]));
   }
 
   // At an edge that lies on the face only the casters before it count; those on its plane hide nothing of it.
-  void standOn(std::uint32_t t, const Standing& s) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t edge = casters_.edges[t][k];
+  void standOn(std::uint32_t t) {
+    for (const std::uint32_t edge : casters_.edges[t]) {
+      const Edge over = edgeOver(edge);
+      const double nothing = nothingOf(edge);
+      if (over.clip.empty() || std::abs(over.highest()) > nothing) continue;
       const shadow::CasterEdge& e = casters_.set.edges[edge];
-      const auto& corners = casters_.set.triangles[t];
-      int on = 0;
-      for (std::size_t i = 0; i < 3; ++i) on += (corners[i] == e.a || corners[i] == e.b) && s.at[i] == 0;
-      if (on != 2) continue;
       int change = 0;
       std::uint32_t first = ~0u;
       for (std::uint32_t u = e.begin; u < e.end; ++u) {
         const auto& use = casters_.set.uses[u];
-        if (casters_.side[use.triangle] == 0 || !standing(casters_, face_, use.triangle).before()) continue;
+        if (casters_.side[use.triangle] == 0 || !isBefore(casters_, face_, use.triangle)) continue;
         first = std::min(first, use.triangle);
         change += use.sign * casters_.side[use.triangle];
       }
-      if (change != 0 && first == t) addEdge(edge, true);
+      if (change != 0 && first == t) addEdge(over);
     }
   }
 
   const Casters& casters_;
   const Face& face_;
   const Vec4 light_;
-  Vec2 lightFlat_{0.0};  ///< the light's own place over the face, or its direction's
-  std::array<Vec3, 3> inside_;
   Borders out_;
 };
 

@@ -18,6 +18,7 @@ struct Casters {
   const shadow::CasterSet& set;
   Vec4 light;                                       ///< homogeneous, relative to CasterSet::origin
   std::vector<std::int8_t> side;                    ///< per triangle: lightSide; 0 hides nothing
+  std::vector<float> reach;                         ///< per triangle: its largest coordinate
   std::vector<std::array<std::uint32_t, 3>> edges;  ///< per triangle: of CasterSet::edges
   std::vector<std::uint32_t> borders;               ///< edges at which the number of surfaces before a point changes
   BoxTree borderTree;                               ///< of `borders`
@@ -31,32 +32,29 @@ struct Casters {
   }
 };
 
+/// A point as the light projects it onto a face: (u w, v w, w), w > 0 where it lies before the light.
+using Projected = Vec3;
+
 /// A face that is cut.
 struct Face {
   FaceFrame frame;
-  Vec3 up{0.0};              ///< unit normal on the light's side
-  double reach = 0.0;        ///< its largest coordinate when it casts, else 0
-  double lightHeight = 0.0;  ///< of the light over its plane; for a direction, the sine of its elevation
-  double tolerance = 0.0;    ///< lengths on the face that count as nothing
+  Vec3 up{0.0};                  ///< unit normal on the light's side
+  double reach = 0.0;            ///< its largest coordinate when it casts, else 0
+  double sine = 1.0;             ///< of the light's elevation over it
+  double tolerance = 0.0;        ///< lengths on the face that count as nothing
+  Vec4 light{0.0};               ///< homogeneous
+  double lightHeight = 0.0;      ///< of the light over its plane; for a direction, the sine of its elevation
+  Vec2 lightFlat{0.0};           ///< the light's own place over the face, or its direction's
+  std::array<Vec3, 3> inside{};  ///< lines of the face's edges, positive inside
 
   [[nodiscard]] double height(const Vec3& p) const { return glm::dot(up, p - frame.origin); }
-  /// Of a caster's corner: +1 on the light's side of the face's plane, -1 behind it, 0 on it. What single precision cannot tell from the plane counts as
-  /// on it, as it does for rays (trace::LightRays): coplanar and touching surfaces hide nothing of each other. Decided corner by corner, so that all
-  /// triangles at an edge see it alike.
-  [[nodiscard]] int sideOf(const Vec3& corner, double heightOfIt) const {
-    const double nothing = trace::resolution(std::max(reach, trace::largest(corner)));
-    return heightOfIt > nothing ? +1 : heightOfIt < -nothing ? -1 : 0;
-  }
+  /// Away from the light onto the face's plane.
+  [[nodiscard]] Projected project(const Vec3& p) const;
 };
 
-/// How a caster lies to a face's plane.
-struct Standing {
-  std::array<double, 3> heights;
-  std::array<int, 3> at;  ///< +1 on the light's side, -1 behind, 0 on the plane
-  [[nodiscard]] bool before() const { return at[0] > 0 || at[1] > 0 || at[2] > 0; }
-  [[nodiscard]] bool crosses() const { return before() && (at[0] < 0 || at[1] < 0 || at[2] < 0); }
-};
-[[nodiscard]] Standing standing(const Casters& casters, const Face& face, std::uint32_t triangle);
+/// Whether a caster rises above a face, as far as the two lie over each other seen from the light. What single precision cannot tell from the face's plane
+/// does not, as for rays (trace::LightRays): coplanar and touching surfaces hide nothing of each other.
+[[nodiscard]] bool isBefore(const Casters& casters, const Face& face, std::uint32_t triangle);
 
 /// Calls visit(triangle) for the casters that hide `point`, which lies on the face away from borders, until it answers false. `steps` grows by the work it was.
 template <class Visit>
@@ -76,7 +74,7 @@ void visitHiding(const Casters& casters, const Face& face, const Vec3& point, st
   casters.hidingTree.visit(meets, [&](std::uint32_t item) {
     const std::uint32_t t = casters.hiding[item];
     ++steps;
-    if (!trace::hides(casters.corners(t), point, casters.light) || !standing(casters, face, t).before()) return true;
+    if (!trace::hides(casters.corners(t), point, casters.light) || !isBefore(casters, face, t)) return true;
     return static_cast<bool>(visit(t));
   });
 }
