@@ -194,7 +194,9 @@ class TintedTechnique final : public GlTechnique {
     block.eyeLow = eye.eyeLow;
     block.scale = Vec4f(static_cast<float>(1.0 / geometry_->filters.steps()),
                         static_cast<float>(kResolution * std::max({reach.x, reach.y, reach.z})), 0.0f, 0.0f);
-    block.litLayers = std::max(0, frame.veilLayers.value_or(std::numeric_limits<int>::max()));
+    // Which layers matter is known when all are drawn, so all are lit where that is asked for.
+    const int layers = frame.veilLayers.value_or(shadow::kVeilLayersThatMatter);
+    block.litLayers = layers == shadow::kVeilLayersThatMatter ? std::numeric_limits<int>::max() : std::max(0, layers);
     block.width = frame.camera.width;
     block.pixelCount = frame.camera.width * frame.camera.height;
     return block;
