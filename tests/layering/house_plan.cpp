@@ -36,7 +36,7 @@ const std::vector<ForeignRule>& foreignRules() {
       {"cpl_", {"io", "report"}},
       {"ogr_", {"io", "report"}},
       {"polyclipping/", {"outline"}},
-      {"nlohmann/", {"io", "report", "apps", "tests", "benchmarks"}},
+      {"nlohmann/", {"io", "report", "rules", "apps", "tests", "benchmarks"}},
       {"cairo/", {"report"}},
       {"cairo", {"report"}},
       {"gif_lib.h", {"report"}},
@@ -60,6 +60,7 @@ const std::vector<ForeignRule>& foreignRules() {
       {"pthread.h", {"io"}},
       {"fnmatch.h", {"scene"}},
       {"immintrin.h", {"*"}},
+      {"umbrage_presets/", {"rules"}},
       {"umbrage_shaders/", {"gl", "render", "techniques_gl", "coin", "tests"}},
       {"umbrage_texts/", {"report"}},
   };

@@ -1,0 +1,157 @@
+#include "umbrage/rules/detail/days.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "umbrage/sun/sun_path.hpp"
+
+namespace umbrage::rules::detail {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::month_day;
+using std::chrono::sys_days;
+using std::chrono::year_month_day;
+using study::TimeSpan;
+
+// The upper limb on the horizon, lifted by the air.
+constexpr Angle kAlmanacHorizon = Angle::degrees(-0.833);
+
+double longitudeAt(sun::Instant instant) {
+  const double days = double((instant - sys_days(std::chrono::year(2000) / 1 / 1)).count()) / 86400e3 - 0.5;
+  const double t = days / 36525.0;
+  const double mean = 280.46646 + 36000.76983 * t + 0.0003032 * t * t;
+  const Angle anomaly = Angle::degrees(357.52911 + 35999.05029 * t - 0.0001537 * t * t);
+  const double centre = (1.914602 - 0.004817 * t) * sin(anomaly) + (0.019993 - 0.000101 * t) * sin(2.0 * anomaly) +
+                        0.000289 * sin(3.0 * anomaly);
+  const double nutation = 0.00478 * sin(Angle::degrees(125.04 - 1934.136 * t));
+  return mean + centre - 0.00569 - nutation;
+}
+
+year_month_day inYear(const month_day& day, std::chrono::year year) {
+  const year_month_day date = year / day.month() / day.day();
+  return date.ok() ? date : year_month_day(year / day.month() / std::chrono::last);
+}
+
+std::vector<year_month_day> rangeOf(const Days& days, std::chrono::year year) {
+  const sys_days first(inYear(days.dates[0], year));
+  sys_days last(inYear(days.dates[1], year));
+  if (last < first) last = sys_days(inYear(days.dates[1], year + std::chrono::years(1)));
+  std::vector<year_month_day> dates;
+  for (sys_days day = first; day < last; day += std::chrono::days(days.every)) dates.emplace_back(day);
+  dates.emplace_back(last);
+  return dates;
+}
+
+sun::Zone fixedZone(std::chrono::minutes offset) {
+  return {sun::Zone::Kind::fixed, sun::offsetText(std::chrono::seconds(offset)), offset};
+}
+
+// Clocks stand farthest back without daylight saving, be it in January or in July.
+sun::Zone standardOf(const Calendar& calendar) {
+  if (calendar.zone.kind != sun::Zone::Kind::named) return calendar.zone;
+  std::chrono::seconds least = std::chrono::hours(24);
+  for (const auto month : {std::chrono::January, std::chrono::July})
+    least =
+        std::min(least, sun::clockAt(calendar.zone, calendar.place, sys_days(calendar.date.year() / month / 1)).offset);
+  return fixedZone(std::chrono::round<std::chrono::minutes>(least));
+}
+
+sun::Zone legalOf(Clock clock, const Calendar& calendar) {
+  if (calendar.zone.kind == sun::Zone::Kind::solar)
+    return fixedZone(std::chrono::minutes(std::lround(calendar.place.longitude.degrees() * 4.0)));
+  return clock == Clock::standard ? standardOf(calendar) : calendar.zone;
+}
+
+}  // namespace
+
+sun::Instant instantOfLongitude(Angle longitude, std::chrono::year year) {
+  const sun::Instant start = sys_days(year / 1 / 1), end = sys_days((year + std::chrono::years(1)) / 1 / 1);
+  // On New Year's Day the longitude is 280 degrees; it grows by 360 in a year.
+  const double first = longitudeAt(start);
+  double wanted = longitude.degrees();
+  wanted += 360.0 * std::ceil((first - wanted) / 360.0);
+  sun::Instant a = start, b = end + std::chrono::hours(24);
+  while (b - a > milliseconds(1000)) {
+    const sun::Instant middle = a + (b - a) / 2;
+    (longitudeAt(middle) < wanted ? a : b) = middle;
+  }
+  return b;
+}
+
+std::vector<year_month_day> datesOf(const Days& days, const Calendar& calendar) {
+  std::vector<year_month_day> dates;
+  const std::chrono::year year = calendar.date.year();
+  switch (days.kind) {
+    case Days::Kind::given: dates.push_back(calendar.date); break;
+    case Days::Kind::range: return rangeOf(days, year);
+    case Days::Kind::dates:
+      for (const month_day& day : days.dates) dates.push_back(inYear(day, year));
+      break;
+    case Days::Kind::longitudes:
+      for (const Angle longitude : days.longitudes)
+        dates.push_back(sun::clockAt(calendar.zone, calendar.place, instantOfLongitude(longitude, year)).clock.date);
+  }
+  std::sort(dates.begin(), dates.end());
+  return dates;
+}
+
+sun::Zone zoneOf(Clock clock, const Calendar& calendar, bool switched) {
+  const bool solar = (clock == Clock::solar) != switched;
+  if (solar) return {sun::Zone::Kind::solar, "solar", {}};
+  return legalOf(clock, calendar);
+}
+
+Result<std::optional<TimeSpan>> windowOn(const Window& window, year_month_day date, const Calendar& calendar,
+                                         bool clockSwitched) {
+  const sun::Zone zone = zoneOf(window.clock, calendar, clockSwitched);
+  TimeSpan span{};
+  const milliseconds from = window.from.value_or(milliseconds(0)), to = window.to.value_or(std::chrono::hours(24));
+  for (const auto& [clock, instant] : {std::pair(from, &span.from), std::pair(to, &span.to)}) {
+    const auto moment = sun::instantOf(zone, calendar.place, {date, clock});
+    if (!moment) return tl::unexpected(moment.error());
+    *instant = moment->instant;
+  }
+  if (window.afterSunrise || window.beforeSunset) {
+    const auto day = sun::sunDay(calendar.place, {sun::Zone::Kind::solar, "solar", {}}, date, {kAlmanacHorizon});
+    if (!day) return tl::unexpected(day.error());
+    if (day->kind == sun::SunDay::Kind::alwaysDown) return std::optional<TimeSpan>();
+    if (window.afterSunrise && day->rise) span.from = std::max(span.from, *day->rise + *window.afterSunrise);
+    if (window.beforeSunset && day->set) span.to = std::min(span.to, *day->set - *window.beforeSunset);
+  }
+  if (span.from >= span.to) return std::optional<TimeSpan>();
+  return std::optional(span);
+}
+
+Spans countingTimes(const study::SunCourse& course, const std::optional<Angle>& leastAltitude) {
+  if (!leastAltitude) return course.up();
+  const double least = sin(*leastAltitude);
+  const auto high = [&](sun::Instant t) { return course.towards(t).z >= least; };
+  Spans spans;
+  for (const TimeSpan& up : course.up()) {
+    // The highest sun is a probe too, so that no short stretch around it is missed.
+    std::vector<sun::Instant> probes;
+    for (sun::Instant t = up.from; t < up.to; t += std::chrono::minutes(10)) probes.push_back(t);
+    probes.push_back(up.to);
+    const sun::Instant noon = sun::instantOfHourAngle(course.place(), up.from + up.length() / 2, {});
+    if (up.from < noon && noon < up.to) probes.push_back(noon);
+    std::sort(probes.begin(), probes.end());
+    bool before = high(probes.front());
+    sun::Instant since = probes.front();
+    for (std::size_t i = 1; i < probes.size(); ++i) {
+      sun::Instant a = probes[i - 1], b = probes[i];
+      if (high(b) == before) continue;
+      while (b - a > milliseconds(1)) {
+        const sun::Instant middle = a + (b - a) / 2;
+        (high(middle) == before ? a : b) = middle;
+      }
+      if (before) spans.push_back({since, b});
+      before = !before;
+      since = b;
+    }
+    if (before && since < up.to) spans.push_back({since, up.to});
+  }
+  return spans;
+}
+
+}  // namespace umbrage::rules::detail

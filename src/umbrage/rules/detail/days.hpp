@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "umbrage/rules/detail/spans.hpp"
+#include "umbrage/rules/rule.hpp"
+#include "umbrage/sun/zone.hpp"
+
+namespace umbrage::rules::detail {
+
+/// Where and by which clock a rule is held.
+struct Calendar {
+  sun::Place place;
+  sun::Zone zone;                      ///< what the clock of the place shows
+  std::chrono::year_month_day date{};  ///< its year counts; rules without days of their own take it
+};
+
+/// When the sun's apparent longitude passes a value in a year (UTC), within 20 minutes.
+/// Source: Meeus, Astronomical Algorithms, 2nd edition 1998, chapter 25.
+[[nodiscard]] sun::Instant instantOfLongitude(Angle longitude, std::chrono::year year);
+
+/// The dates that a rule looks at, ascending. 29 February is 28 February in years without.
+[[nodiscard]] std::vector<std::chrono::year_month_day> datesOf(const Days& days, const Calendar& calendar);
+
+/// The zone of one of the rule's clocks. `switched`: of the other one: the legal clock for the true sun's, the true sun's for others. Where the
+/// calendar's own zone is that of the sun, its legal clock is mean solar time.
+[[nodiscard]] sun::Zone zoneOf(Clock clock, const Calendar& calendar, bool switched);
+
+/// The window of a day; nothing where its limits leave nothing. Errors: usage, for times that the clock leaves out.
+[[nodiscard]] Result<std::optional<study::TimeSpan>> windowOn(const Window& window, std::chrono::year_month_day date,
+                                                              const Calendar& calendar, bool clockSwitched);
+
+/// When the sun of a course counts: it is up, and as high as that.
+[[nodiscard]] Spans countingTimes(const study::SunCourse& course, const std::optional<Angle>& leastAltitude);
+
+}  // namespace umbrage::rules::detail

@@ -1,0 +1,116 @@
+#include "umbrage/rules/rule_file.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace umbrage::rules {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kGood = R"({"name":"mine","title":"My town","source":"its plan","receivers":{"kind":"points"},
+  "requirements":[{"name":"2 h","days":{"dates":["03-21"]},"window":{"clock":"solar","from":"08:00","to":"16:00"},
+                   "statistic":"sun","at_least_hours":2}]})";
+
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = kGood;
+  const auto at = text.find(from);
+  EXPECT_NE(at, text.npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(RuleFile, readsAllOfIt) {
+  const auto rule = parseRule(kGood, "mine.json");
+  ASSERT_TRUE(rule) << rule.error().text();
+  EXPECT_EQ(rule->name, "mine");
+  ASSERT_EQ(rule->requirements.size(), 1u);
+  const Measure& m = rule->requirements[0].anyOf.at(0);
+  EXPECT_EQ(m.threshold, std::chrono::hours(2));
+  EXPECT_EQ(m.window.to, std::chrono::hours(16));
+  EXPECT_EQ(m.days.dates.at(0), std::chrono::March / 21);
+  EXPECT_FALSE(needsBaseline(*rule));
+}
+
+TEST(RuleFile, contradictionsAndSlipsAreNamed) {
+  const std::tuple<std::string, const char*> wrong[] = {
+      {"{", "is not JSON"},
+      {"[]", "an object"},
+      {std::string(200, '['), "nested too deeply"},
+      {with("\"08:00\"", "\"17:00\""), "requirements[0].window: the window is empty"},
+      {with("\"08:00\"", "\"8 h\""), "requirements[0].window.from"},
+      {with("\"clock\":\"solar\",", ""), "window.clock: is missing"},
+      {with("\"clock\":\"solar\"", "\"clock\":\"sundial\""), "one of solar, zone, standard"},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":9"), "9 h are wanted of a window of 8 h"},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":-1"), "a number from 0 to 24"},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":0"), "always there"},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"at_most_hours\":3"), "exactly one of"},
+      {with(",\"at_least_hours\":2", ""), "exactly one of"},
+      {with("\"at_least_hours\":2", "\"at_most_hours\":2"), "sun wants at_least_hours"},
+      {with("\"statistic\":\"sun\"", "\"statistic\":\"shadow\""), "shadow wants at_most_hours"},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"at_leest\":3"), "requirements[0].at_leest: no such member"},
+      {with("\"03-21\"", "\"02-30\""), "'02-30' is no day"},
+      {with("{\"dates\":[\"03-21\"]}", "{\"dates\":[\"03-21\"],\"solar_longitudes\":[0]}"), "exclude each other"},
+      {with("{\"dates\":[\"03-21\"]}", "{}"), "is wanted"},
+      {with("{\"dates\":[\"03-21\"]}", "{\"from\":\"02-01\"}"), "belong together"},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"share\":0"), "a share above 0"},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"metres_from_site\":{\"from\":5}"),
+       "receivers of kind site"},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"least_run_minutes\":\"5\""), "least_run_minutes"},
+      {with("\"kind\":\"points\"", "\"kind\":\"windows\""), "one of points, areas, site"},
+      {with("\"kind\":\"points\"", "\"kind\":\"points\",\"height\":2"), "points lie where they are"},
+      {with("\"name\":\"mine\",", ""), "name: is missing"},
+      {with("\"requirements\":[", "\"requirements\":[],\"other\":["), "requirements: is missing or empty"},
+      {with("\"at_least_hours\":2", "\"at_most_new_share\":0.1,\"share\":0.5"), "stands alone"},
+  };
+  for (const auto& [text, says] : wrong) {
+    const auto rule = parseRule(text, "mine.json");
+    ASSERT_FALSE(rule) << says;
+    EXPECT_EQ(rule.error().code, ErrorCode::input);
+    EXPECT_EQ(rule.error().where, "mine.json");
+    EXPECT_THAT(rule.error().message, HasSubstr(says));
+  }
+}
+
+TEST(RuleFile, alternativesShareWhatIsCommon) {
+  const auto rule = findRule("korea");
+  ASSERT_TRUE(rule);
+  ASSERT_EQ(rule->requirements.at(0).anyOf.size(), 2u);
+  for (const Measure& m : rule->requirements[0].anyOf) EXPECT_EQ(m.days.longitudes.at(0), Angle::degrees(270));
+  EXPECT_EQ(rule->requirements[0].anyOf[1].statistic, Statistic::longestSun);
+}
+
+TEST(Presets, eachNamesItsSourceAndWhatIsUncertain) {
+  EXPECT_GE(presets().size(), 30u);
+  for (const Rule& rule : presets()) {
+    EXPECT_FALSE(rule.source.empty()) << rule.name;
+    EXPECT_FALSE(rule.uncertain.empty()) << rule.name;
+    EXPECT_FALSE(rule.where.empty()) << rule.name;
+    EXPECT_TRUE(presetText(rule.name)) << rule.name;
+  }
+}
+
+TEST(Presets, unknownNamesAreAnsweredWithNearOnes) {
+  const auto rule = findRule("japan-9");
+  ASSERT_FALSE(rule);
+  EXPECT_EQ(rule.error().code, ErrorCode::usage);
+  EXPECT_THAT(rule.error().message, HasSubstr("japan-4-2.5"));
+  EXPECT_THAT(findRule("nowhere").error().message, HasSubstr("nyc-ceqr"));
+  EXPECT_EQ(findRule("no-such-file.json").error().code, ErrorCode::input);
+  EXPECT_THAT(withCountry(*findRule("en17037-high"), "XX").error().message, HasSubstr("DE"));
+  EXPECT_FALSE(withCountry(*findRule("korea"), "KR"));
+}
+
+TEST(Presets, aPrintedPresetIsARuleFile) {
+  const auto path = std::filesystem::temp_directory_path() / "umbrage_rule_file_test.json";
+  std::ofstream(path) << *presetText("bre209");
+  const auto rule = findRule(path.string());
+  std::filesystem::remove(path);
+  ASSERT_TRUE(rule);
+  EXPECT_EQ(rule->name, "bre209");
+  EXPECT_EQ(rule->requirements.at(0).former, 0.8);
+}
+
+}  // namespace
+}  // namespace umbrage::rules

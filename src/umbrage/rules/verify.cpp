@@ -1,0 +1,249 @@
+#include "umbrage/rules/verify.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "umbrage/rules/detail/judge.hpp"
+#include "umbrage/study/georeference.hpp"
+#include "umbrage/study/ledger.hpp"
+
+namespace umbrage::rules {
+namespace {
+
+using detail::Conventions;
+using study::LedgerLine;
+
+constexpr double kNearShare = 0.1;  // of a limit on new shadow
+
+std::string clockName(Clock clock, const detail::Calendar& calendar, bool switched) {
+  const sun::Zone zone = detail::zoneOf(clock, calendar, switched);
+  if (zone.kind == sun::Zone::Kind::solar) return "true solar time";
+  if (zone.kind == sun::Zone::Kind::named) return zone.name;
+  return "UTC" + zone.name;
+}
+
+bool readsClock(const Rule& rule) {
+  for (const Requirement& r : rule.requirements)
+    for (const Measure& m : r.anyOf)
+      if (m.window.from || m.window.to) return true;
+  return false;
+}
+
+// The clocks of all measures that read one, each once.
+std::string clockNames(const Rule& rule, const Conventions& c) {
+  std::vector<std::string> names;
+  for (const Requirement& r : rule.requirements)
+    for (const Measure& m : r.anyOf)
+      if (const std::string name = clockName(m.window.clock, c.calendar, c.clockSwitched);
+          (m.window.from || m.window.to) && std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(name);
+  return names.empty() ? "none: all of the day, or from sunrise to sunset" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string refractionName(const Conventions& c) {
+  return c.sun.refraction == sun::Refraction::none ? "geometric" : "with refraction";
+}
+std::string limbName(const Conventions& c) { return c.sun.point == study::SunPoint::centre ? "centre" : "upper limb"; }
+std::string declinationName(const Conventions& c) { return c.fixedDeclination ? "fixed at noon's" : "moving"; }
+
+struct Switch {
+  const char* name;
+  std::string (*text)(const Rule&, const Conventions&);
+  void (*turn)(Conventions&);
+};
+const Switch kSwitches[] = {
+    {"clock", clockNames, [](Conventions& c) { c.clockSwitched = true; }},
+    {"refraction", [](const Rule&, const Conventions& c) { return refractionName(c); },
+     [](Conventions& c) {
+       c.sun.refraction = c.sun.refraction == sun::Refraction::none ? sun::Refraction::standard : sun::Refraction::none;
+     }},
+    {"limb", [](const Rule&, const Conventions& c) { return limbName(c); },
+     [](Conventions& c) {
+       c.sun.point = c.sun.point == study::SunPoint::centre ? study::SunPoint::upperLimb : study::SunPoint::centre;
+     }},
+    {"declination", [](const Rule&, const Conventions& c) { return declinationName(c); },
+     [](Conventions& c) { c.fixedDeclination = !c.fixedDeclination; }},
+};
+
+double leastMargin(const std::vector<Finding>& findings) {
+  double least = findings.front().margin;
+  for (const Finding& f : findings) least = std::min(least, f.margin);
+  return least;
+}
+
+bool isNear(const Rule& rule, const Finding& finding, const VerifyRequest& request) {
+  const auto& limit = rule.requirements[finding.requirement].mostNew;
+  if (limit) return *limit > 0.0 && std::abs(finding.margin) <= kNearShare * *limit;
+  // No new shadow at all is what most receivers have, and nothing near it.
+  const ReceiverResult& r = finding.receivers[*finding.deciding];
+  const bool none = r.threshold == 0.0 && r.value == 0.0;
+  return !none && std::abs(finding.margin) <= detail::hoursOf(request.near);
+}
+
+Result<std::vector<SwitchOutcome>> outcomes(const Rule& rule, const detail::Lights& lights, const TargetSet& targets,
+                                            const VerifyRequest& request, const Conventions& taken,
+                                            const ProgressSink& progress) {
+  std::vector<SwitchOutcome> all;
+  for (const Switch& one : kSwitches) {
+    if (one.turn == kSwitches[0].turn && !readsClock(rule)) continue;
+    Conventions turned = detail::conventionsOf(rule, request);
+    one.turn(turned);
+    const auto findings = detail::judge(rule, lights, targets, turned, progress);
+    if (!findings) return tl::unexpected(findings.error());
+    all.push_back(
+        {one.name, one.text(rule, taken), one.text(rule, turned), detail::allPass(*findings), leastMargin(*findings)});
+  }
+  return all;
+}
+
+// "2026-03-21" or "2026-02-01 to 2026-03-21, 49 days".
+std::string datesText(const Rule& rule, const Conventions& c) {
+  std::vector<std::string> texts;
+  for (const Requirement& r : rule.requirements)
+    for (const Measure& m : r.anyOf) {
+      const auto dates = detail::datesOf(m.days, c.calendar);
+      std::string text;
+      if (m.days.kind == Days::Kind::range)
+        text = fmt::format("{} to {}, {} days{}", sun::dateText(dates.front()), sun::dateText(dates.back()),
+                           dates.size(), m.days.best ? ", the best of them" : "");
+      else
+        for (const auto& date : dates) text += (text.empty() ? "" : ", ") + sun::dateText(date);
+      if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(text);
+    }
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+std::string altitudeText(const Rule& rule) {
+  for (const Requirement& r : rule.requirements)
+    for (const Measure& m : r.anyOf)
+      if (m.leastAltitude) return fmt::format(", counting from {:g} degrees up", m.leastAltitude->degrees());
+  return ", horizon at 0 degrees";
+}
+
+std::vector<LedgerLine> ledgerOf(const scene::Scene& scene, const scene::Scene* baseline, const Rule& rule,
+                                 const TargetSet& targets, const VerifyRequest& request, const Conventions& c) {
+  std::vector<LedgerLine> ledger = {
+      {"Rule", fmt::format("{}: {}", rule.name, rule.title)},
+      {"Source", rule.source},
+      {"Place", study::placeText(request.place)},
+      {"Date", datesText(rule, c)},
+      {"Clock", clockNames(rule, c)},
+      study::sunLine(rule.sun, std::string("declination ") + (c.fixedDeclination ? "of noon" : "moving (ERFA)") +
+                                   altitudeText(rule)),
+      study::northLine(scene),
+      study::unitLine(scene),
+      {"Receivers", targets.described},
+      study::castersLine(request.casters),
+      {"Time", "exact: solved for the moments at which edges uncover and cover the sun"},
+      study::inputLine(scene)};
+  if (baseline != nullptr) ledger.push_back({"Baseline", study::inputLine(*baseline).text});
+  ledger.push_back(study::versionLine("verdict of exact sun hours", request.zone));
+  return ledger;
+}
+
+}  // namespace
+
+Result<void> detail::checkRequest(const Rule& rule, bool hasBaseline, const TargetSet& targets,
+                                  const VerifyRequest& r) {
+  const double latitude = r.place.latitude.degrees();
+  const bool north = rule.hemisphere == Hemisphere::north, south = rule.hemisphere == Hemisphere::south;
+  if ((north && latitude <= 0.0) || (south && latitude >= 0.0))
+    return fail(ErrorCode::usage,
+                fmt::format("{} is a rule of the {} hemisphere ({}), and the place lies at {}", rule.name,
+                            north ? "northern" : "southern", rule.where, study::placeText(r.place)));
+  if (needsBaseline(rule) && !hasBaseline)
+    return fail(
+        ErrorCode::usage,
+        fmt::format("{} asks what is new in shadow, so it wants what stands now: --baseline SCENE2", rule.name));
+  if (!rule.altitudeByCountry.empty()) {
+    std::string known;
+    for (const auto& [country, altitude] : rule.altitudeByCountry) known += (known.empty() ? "" : ", ") + country;
+    return fail(ErrorCode::usage,
+                fmt::format("{} has a least altitude of the sun for each country: --country CODE ({}), or "
+                            "--min-altitude DEG",
+                            rule.name, known));
+  }
+  if (targets.targets.empty())
+    return fail(ErrorCode::usage, fmt::format("there are no receivers to hold {} against", rule.name));
+  return {};
+}
+
+Result<Verdict> verify(const scene::Scene& scene, const scene::Scene* baseline, const Rule& rule,
+                       const TargetSet& targets, const VerifyRequest& request, const ProgressSink& progress) {
+  if (const auto fine = detail::checkRequest(rule, baseline != nullptr, targets, request); !fine)
+    return tl::unexpected(fine.error());
+  detail::Lights lights;
+  for (const auto& [of, light] : {std::pair(&scene, &lights.now), std::pair(baseline, &lights.before)}) {
+    if (of == nullptr) continue;
+    auto hours = study::ExactHours::build(*of, request.place);
+    if (!hours) return tl::unexpected(hours.error());
+    *light = detail::sunOf(std::make_shared<const study::ExactHours>(std::move(*hours)));
+  }
+  const Conventions conventions = detail::conventionsOf(rule, request);
+  auto findings = detail::judge(rule, lights, targets, conventions, progress);
+  if (!findings) return tl::unexpected(findings.error());
+  if (findings->empty()) return fail(ErrorCode::usage, fmt::format("no receiver lies where {} looks", rule.name));
+  Verdict verdict;
+  verdict.rule = rule;
+  verdict.findings = std::move(*findings);
+  verdict.passes = detail::allPass(verdict.findings);
+  verdict.nearThreshold = std::any_of(verdict.findings.begin(), verdict.findings.end(),
+                                      [&](const Finding& f) { return isNear(rule, f, request); });
+  if (request.sensitivity == Sensitivity::always ||
+      (request.sensitivity == Sensitivity::nearThreshold && verdict.nearThreshold)) {
+    auto switches = outcomes(rule, lights, targets, request, conventions, progress);
+    if (!switches) return tl::unexpected(switches.error());
+    verdict.switches = std::move(*switches);
+  }
+  verdict.ledger = ledgerOf(scene, baseline, rule, targets, request, conventions);
+  for (const Requirement& r : rule.requirements)
+    if (r.former && baseline == nullptr)
+      verdict.warnings.push_back(
+          fmt::format("without --baseline nobody knows what was there before: '{}' is held without its {:g} times",
+                      r.name, *r.former));
+  if (request.zone.kind == sun::Zone::Kind::solar && readsClock(rule))
+    for (const Requirement& r : rule.requirements)
+      if (r.anyOf.front().window.clock != Clock::solar && verdict.warnings.empty())
+        verdict.warnings.push_back(
+            "the rule reads the legal clock, which --tz solar does not tell: mean solar time is taken");
+  return verdict;
+}
+
+Result<std::vector<study::TimeSpan>> countingOn(const Rule& rule, const Measure& measure,
+                                                std::chrono::year_month_day date, const VerifyRequest& request) {
+  auto day = detail::dayOf(measure, date, detail::conventionsOf(rule, request));
+  if (!day) return tl::unexpected(day.error());
+  return *day ? (*day)->counting : std::vector<study::TimeSpan>();
+}
+
+std::vector<std::chrono::year_month_day> datesOf(const Measure& measure, const VerifyRequest& request) {
+  return detail::datesOf(measure.days, {request.place, request.zone, request.date});
+}
+
+Result<double> shadowReach(double above, const Rule& rule, const VerifyRequest& request) {
+  double reach = 0.0;
+  const Conventions conventions = detail::conventionsOf(rule, request);
+  for (const Requirement& r : rule.requirements)
+    for (const Measure& m : r.anyOf)
+      for (const auto& date : detail::datesOf(m.days, conventions.calendar)) {
+        const auto day = detail::dayOf(m, date, conventions);
+        if (!day) return tl::unexpected(day.error());
+        if (!*day) continue;
+        // A point so far off is in shadow only while the sun is lower; looked at every minute, one minute short.
+        std::vector<double> lengths;
+        for (const study::TimeSpan& span : (*day)->counting)
+          for (auto t = span.from; t < span.to; t += std::chrono::minutes(1)) {
+            const Vec3 s = (*day)->course.towards(t);
+            lengths.push_back(std::hypot(s.x, s.y) / std::max(s.z, 1e-6));
+          }
+        std::sort(lengths.rbegin(), lengths.rend());
+        const auto minutes =
+            static_cast<std::size_t>(std::max<std::int64_t>(2, m.threshold / std::chrono::minutes(1)) - 2);
+        if (minutes < lengths.size()) reach = std::max(reach, lengths[minutes]);
+      }
+  return std::max(0.0, above) * reach;
+}
+
+}  // namespace umbrage::rules

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "umbrage/rules/targets.hpp"
+#include "umbrage/study/profile.hpp"
+#include "umbrage/sun/zone.hpp"
+
+namespace umbrage::rules {
+
+/// When switches are looked at (see Verdict::switches).
+enum class Sensitivity { never, nearThreshold, always };
+
+struct VerifyRequest {
+  sun::Place place;
+  sun::Zone zone;                      ///< what the clock of the place shows
+  std::chrono::year_month_day date{};  ///< its year counts; rules without days of their own take it
+  Sensitivity sensitivity = Sensitivity::nearThreshold;
+  std::chrono::milliseconds near{15 * 60'000};  ///< a margin of at most so much is near
+  std::vector<std::string> casters;             ///< for the ledger: patterns that chose what casts
+};
+
+/// What one receiver has.
+struct ReceiverResult {
+  std::size_t target = 0;  ///< of the targets
+  double value = 0.0;      ///< hours, by the measure that decides it
+  double threshold = 0.0;
+  double margin = 0.0;  ///< hours on the passing side of the threshold; below 0 it fails
+  bool passes = false;
+  std::size_t measure = 0;             ///< of Requirement::anyOf
+  std::chrono::year_month_day date{};  ///< the day that decides
+  std::vector<study::TimeSpan> spans;  ///< of that day: sun, or shadow where the rule counts shadow
+};
+
+/// One requirement held against one group of receivers.
+/// 1. passes: the part `share` of the receivers passes and is at least `wanted`; with Requirement::mostNew: `newShare` is at most that.
+struct Finding {
+  std::size_t requirement = 0;  ///< of Rule::requirements
+  std::string group;
+  bool passes = false;
+  double share = 0.0, wanted = 1.0;   ///< of the receivers, by area
+  std::optional<double> formerShare;  ///< that passes in the baseline
+  std::optional<double> newShare;     ///< with mostNew: new shadow, of all hours that count
+  double newAreaHours = 0.0;          ///< with mostNew: m2 x h
+  /// Of the receiver that decides: when it had so much less (or more) sun, the finding would turn. With mostNew a share.
+  double margin = 0.0;
+  std::optional<std::size_t> deciding;  ///< of `receivers`
+  std::vector<ReceiverResult> receivers;
+};
+
+/// One convention turned over while the others stay.
+struct SwitchOutcome {
+  std::string name;  ///< clock, refraction, limb, declination
+  std::string taken, instead;
+  bool passes = false;
+  double margin = 0.0;  ///< the least of all findings
+};
+
+struct Verdict {
+  Rule rule;
+  bool passes = false;
+  std::vector<Finding> findings;
+  bool nearThreshold =
+      false;  ///< some finding is nearer to its threshold than VerifyRequest::near (with mostNew: than a tenth of it)
+  std::vector<SwitchOutcome> switches;
+  std::vector<study::LedgerLine> ledger;
+  std::vector<std::string> warnings;
+};
+
+/// Holds a scene against a rule. Times are exact (study::ExactHours), nothing is sampled in time; in space the targets are the samples.
+/// 1. The verdict passes where all findings do.
+/// 2. Requirements without receivers in their band have no finding; a rule without any finding is an error.
+/// Errors: usage (a rule of the other hemisphere, a baseline missing, a least altitude missing, no targets, times that a clock
+/// leaves out), cancelled.
+[[nodiscard]] Result<Verdict> verify(const scene::Scene& scene, const scene::Scene* baseline, const Rule& rule,
+                                     const TargetSet& targets, const VerifyRequest& request,
+                                     const ProgressSink& progress = {});
+
+/// When the sun counts for a measure of a rule on a day: its window, the sun up and high enough. Empty where never. Errors: usage (the clock).
+[[nodiscard]] Result<std::vector<study::TimeSpan>> countingOn(const Rule& rule, const Measure& measure,
+                                                              std::chrono::year_month_day date,
+                                                              const VerifyRequest& request);
+
+/// The dates of a measure, ascending.
+[[nodiscard]] std::vector<std::chrono::year_month_day> datesOf(const Measure& measure, const VerifyRequest& request);
+
+/// How far the shadow of something `above` metres over a plane can last as long as the rule's shortest threshold, in metres. REQUIRES: measures of
+/// shadow. Errors: usage (the clock).
+[[nodiscard]] Result<double> shadowReach(double above, const Rule& rule, const VerifyRequest& request);
+
+}  // namespace umbrage::rules

@@ -1,0 +1,273 @@
+#include "umbrage/rules/verify.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "umbrage/geo/projection.hpp"
+#include "umbrage/outline/combine.hpp"
+#include "umbrage/rules/rule_file.hpp"
+#include "umbrage/rules/test_boxes.hpp"
+
+namespace umbrage::rules {
+namespace {
+
+using namespace testing_boxes;
+using testing::HasSubstr;
+
+const sun::Place kBeijing = place(39.9, 116.4);
+const auto kDay = std::chrono::year(2026) / 1 / 1;
+const sun::Zone kSolar{sun::Zone::Kind::solar, "solar", {}};
+
+TargetSet window() {
+  study::ReceiverSet set;
+  set.receivers = {{{0.0, 0.0, 1.5}, {0.0, -1.0, 0.0}}};
+  return pointTargets(set);
+}
+std::vector<Block> tower(double height) { return {{{-60, -20, 0}, {9, -12, height}, "tower"}}; }
+
+Verdict verdictOf(const Rule& rule, double height, const VerifyRequest& request) {
+  const auto v = verify(sceneOf(tower(height)), nullptr, rule, window(), request);
+  EXPECT_TRUE(v) << (v ? "" : v.error().text());
+  return v ? *v : Verdict{};
+}
+
+// Hours of sun from 8 to 16 by a clock, counted moment by moment.
+double counted(double height, const sun::Zone& clock, const study::SunModel& model) {
+  const auto date = std::chrono::year(2026) / 1 / 20;
+  const Look look(kBeijing, {at(clock, kBeijing, date, 8h), at(clock, kBeijing, date, 16h)}, 0.0, 20s, model);
+  return detail::hoursOf(
+      detail::total(look.when([&](const Vec3& s) { return lit(tower(height), window().targets[0].receiver, s); })));
+}
+
+TEST(Verify, switchesSayWhatOtherConventionsWould) {
+  VerifyRequest request{kBeijing, *sun::parseZone("+08:00"), kDay, Sensitivity::always};
+  const double height = 14.0;
+  const Verdict v = verdictOf(*findRule("china-dahan-2"), height, request);
+  ASSERT_EQ(v.switches.size(), 4u);
+  const auto noon = at(kSolar, kBeijing, std::chrono::year(2026) / 1 / 20, 12h);
+  const std::tuple<const char*, sun::Zone, study::SunModel> expected[] = {
+      {"clock", request.zone, {}},
+      {"refraction", kSolar, {sun::Refraction::standard}},
+      {"limb", kSolar, {sun::Refraction::none, study::SunPoint::upperLimb}},
+      {"declination", kSolar, {sun::Refraction::none, study::SunPoint::centre, study::declinationAt(noon)}}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto& [name, clock, model] = expected[i];
+    EXPECT_EQ(v.switches[i].name, name);
+    const double margin = counted(height, clock, model) - 2.0;
+    EXPECT_NEAR(v.switches[i].margin, margin, 1.5 / 3600) << name;
+    EXPECT_EQ(v.switches[i].passes, margin >= 0.0) << name;
+  }
+  EXPECT_THAT(v.switches[0].instead, HasSubstr("+08:00"));
+  EXPECT_EQ(v.switches[0].taken, "true solar time");
+  EXPECT_NEAR(v.findings[0].margin, counted(height, kSolar, {}) - 2.0, 1.5 / 3600);
+}
+
+TEST(Verify, aVerdictTurnsWithTheClock) {
+  // Near the threshold a clock of 25 minutes' difference decides.
+  VerifyRequest request{kBeijing, *sun::parseZone("+08:00"), kDay};
+  double low = 3.0, high = 60.0;
+  for (int i = 0; i < 40; ++i) (counted(0.5 * (low + high), kSolar, {}) > 2.0 ? low : high) = 0.5 * (low + high);
+  const Verdict passes = verdictOf(*findRule("china-dahan-2"), low * 0.9999, request);
+  const Verdict fails = verdictOf(*findRule("china-dahan-2"), low * 1.0001, request);
+  EXPECT_TRUE(passes.passes && passes.nearThreshold);
+  EXPECT_TRUE(!fails.passes && fails.nearThreshold);
+  ASSERT_EQ(passes.switches.size(), 4u);
+  const double legal = counted(low, request.zone, {}) - 2.0;
+  EXPECT_EQ(passes.switches[0].passes, legal > 0.0);
+  // Far from it nobody asks.
+  EXPECT_TRUE(verdictOf(*findRule("china-dahan-2"), 0.3 * low, request).switches.empty());
+}
+
+TEST(Verify, requestsThatMakeNoSenseAreRefused) {
+  const auto refused = [&](const Rule& rule, const VerifyRequest& request, const TargetSet& targets, const char* says) {
+    const auto v = verify(sceneOf(tower(9)), nullptr, rule, targets, request);
+    ASSERT_FALSE(v) << says;
+    EXPECT_EQ(v.error().code, ErrorCode::usage);
+    EXPECT_THAT(v.error().message, HasSubstr(says));
+  };
+  const VerifyRequest beijing{kBeijing, kSolar, kDay};
+  refused(*findRule("nsw"), beijing, window(), "southern hemisphere");
+  refused(*findRule("china-dahan-2"), {place(-33, 150), kSolar, kDay}, window(), "northern hemisphere");
+  refused(*findRule("vancouver"), beijing, window(), "--baseline");
+  refused(*findRule("en17037-high"), beijing, window(), "--country");
+  refused(*findRule("china-dahan-2"), beijing, {}, "no receivers");
+  const TargetSet onlyPoints = window();
+  refused(*findRule("japan-3-2"), beijing, onlyPoints, "no receiver lies where");
+}
+
+TEST(Verify, nothingButSkyAndNoSunAtAll) {
+  const scene::Scene empty = sceneOf({});
+  const auto open = verify(empty, nullptr, *findRule("china-dahan-2"), window(), {kBeijing, kSolar, kDay});
+  ASSERT_TRUE(open);
+  EXPECT_TRUE(open->passes);
+  // Eight hours of the true sun are six seconds longer than those of a clock in January.
+  EXPECT_NEAR(open->findings[0].receivers[0].value, 8.0 + 5.9 / 3600, 0.5 / 3600);
+  EXPECT_EQ(open->findings[0].receivers[0].spans.size(), 1u);
+  // In the polar night there is none.
+  const auto night = verify(empty, nullptr, *findRule("china-winter-1"), window(), {place(72, 20), kSolar, kDay});
+  ASSERT_TRUE(night);
+  EXPECT_FALSE(night->passes);
+  EXPECT_EQ(night->findings[0].receivers[0].value, 0.0);
+}
+
+TEST(Verify, ledgerStatesTheConventions) {
+  const auto v =
+      verify(sceneOf(tower(9)), nullptr, *findRule("din5034-1"), window(), {place(52.5, 13.4), kSolar, kDay});
+  ASSERT_TRUE(v);
+  std::string text;
+  for (const auto& line : v->ledger) text += line.subject + ": " + line.text + "\n";
+  for (const char* part : {"din5034-1", "DIN 5034-1:2011", "52.5000 N", "2026-03-21", "centre of the disc", "geometric",
+                           "declination moving", "from 6 degrees up", "1 unit of the file", "Made by"})
+    EXPECT_THAT(text, HasSubstr(part));
+}
+
+TEST(Verify, sameWhateverTheAxesAndUnits) {
+  // The same town with Y up, in feet, turned by its north, and far from the origin.
+  const VerifyRequest request{kBeijing, kSolar, kDay, Sensitivity::never};
+  const Verdict plain = verdictOf(*findRule("china-dahan-2"), 14.0, request);
+  scene::Scene other;
+  other.materials.push_back({});
+  other.up = scene::UpAxis::y;
+  other.metresPerUnit = 0.3048;
+  other.northOffset = Angle::degrees(30);
+  const Vec3 east = scene::eastVector(other.up, other.northOffset),
+             north = scene::northVector(other.up, other.northOffset);
+  const auto moved = [&](const Vec3& p) {
+    return (p.x * east + p.y * north + p.z * Vec3(0, 1, 0)) / 0.3048 + Vec3(2048.0, 0.0, -4096.0);
+  };
+  mesh::Mesh m = meshOf(tower(14.0)[0]);
+  for (Vec3& p : m.positions) p = moved(p);
+  other.instances.push_back({"tower", 0});
+  other.meshes.push_back(std::make_shared<const mesh::Mesh>(std::move(m)));
+  study::ReceiverSet set;
+  set.receivers = {{moved({0, 0, 1.5}), -north}};
+  const auto v = verify(other, nullptr, *findRule("china-dahan-2"), pointTargets(set), request);
+  ASSERT_TRUE(v);
+  EXPECT_NEAR(v->findings[0].receivers[0].value, plain.findings[0].receivers[0].value, 2.0 / 3600);
+}
+
+TEST(Targets, areasAreSharedOutByTheirSize) {
+  const auto set = areaTargets({{"a", rectangle({0, 0}, {10, 7})}, {"tiny", rectangle({20.1, 20.1}, {20.2, 20.2})}},
+                               sceneOf({}), 2.0, 1.0);
+  ASSERT_TRUE(set);
+  double sum[2] = {0, 0};
+  for (const Target& t : set->targets) {
+    sum[t.group] += t.weight;
+    EXPECT_TRUE(outline::covers(t.group == 0 ? rectangle({0, 0}, {10, 7}) : rectangle({20.1, 20.1}, {20.2, 20.2}),
+                                Vec2(t.receiver.position)));
+    EXPECT_EQ(t.receiver.position.z, 1.0);
+  }
+  EXPECT_NEAR(sum[0], 70.0, 1e-9);
+  EXPECT_NEAR(sum[1], 0.01, 1e-9);
+  EXPECT_FALSE(areaTargets({{"a", rectangle({0, 0}, {1e6, 1e6})}}, sceneOf({}), 0.01, 0.0));
+  EXPECT_FALSE(areaTargets({}, sceneOf({}), 1.0, 0.0));
+}
+
+TEST(Targets, linesAroundASite) {
+  const Rule rule = *findRule("japan-4-2.5");
+  const outline::Region site = rectangle({-10, -10}, {10, 10});
+  const auto set = siteTargets({"site", site}, rule, sceneOf({}), {4.0, 0.5, 2.0, 30.0});
+  ASSERT_TRUE(set);
+  std::size_t five = 0, ten = 0, grid = 0;
+  for (const Target& t : set->targets) {
+    const double distance = outline::distanceTo(site, Vec2(t.receiver.position));
+    EXPECT_NEAR(distance, t.fromSite, 1e-3);
+    (t.weight > 0.0 ? grid : t.fromSite == 5.0 ? five : ten) += 1;
+    EXPECT_TRUE(t.weight == 0.0 || (distance > 5.0 && distance <= 30.0));
+  }
+  EXPECT_GE(five, static_cast<std::size_t>((80 + 2 * M_PI * 5) / 0.5 * 0.99));
+  EXPECT_GE(ten, static_cast<std::size_t>((80 + 2 * M_PI * 10) / 0.5 * 0.99));
+  EXPECT_NEAR(double(grid) * 4.0, 400 + 80 * 30 + M_PI * 900 - (400 + 80 * 5 + M_PI * 25), 60.0);
+  EXPECT_FALSE(siteTargets({"site", {}}, rule, sceneOf({}), {4.0, 0.5, 2.0, 30.0}));
+  EXPECT_FALSE(siteTargets({"site", site}, *findRule("korea"), sceneOf({}), {4.0, 0.5, 2.0, 30.0}));
+}
+
+TEST(Targets, onlyWhatStandsOnTheSiteCasts) {
+  const auto scene = castersOnSite(sceneOf({{{0, 0, 0}, {4, 4, 9}, "ours"}, {{50, 0, 0}, {54, 4, 9}, "theirs"}}),
+                                   {"site", rectangle({-10, -10}, {10, 10})});
+  ASSERT_TRUE(scene);
+  EXPECT_TRUE(scene->instances[0].casts);
+  EXPECT_FALSE(scene->instances[1].casts);
+  EXPECT_FALSE(castersOnSite(sceneOf({{{50, 0, 0}, {54, 4, 9}}}), {"site", rectangle({-10, -10}, {10, 10})}));
+}
+
+// Beyond the reach no point has as much shadow as the rule's least threshold.
+TEST(Targets, shadowsEndWithinTheirReach) {
+  const sun::Place tokyo = place(35.68, 139.7);
+  const scene::Scene house = sceneOf({{{-20, -6, 0}, {20, 6, 24}}});
+  const VerifyRequest request{tokyo, *sun::parseZone("Asia/Tokyo"), kDay, Sensitivity::never};
+  const auto reach = shadowReach(20.0, *findRule("japan-4-2.5"), request);
+  ASSERT_TRUE(reach);
+  EXPECT_GT(*reach, 20.0);
+  EXPECT_LT(*reach, 20.0 * 12.0);
+  TargetSet beyond{{}, {"site"}, 0.0, "beyond"};
+  for (double x = -150; x <= 150; x += 5)
+    for (const double y : {*reach + 6.5, *reach + 20.0})
+      beyond.targets.push_back({{{x, y, 4.0}, {0, 0, 1}}, 1.0, 0, y - 6.0});
+  const auto v = verify(house, nullptr, *findRule("japan-4-2.5"), beyond, request);
+  ASSERT_TRUE(v);
+  EXPECT_TRUE(v->passes);
+}
+
+class AreaFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("umbrage_areas_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  [[nodiscard]] Result<std::vector<Area>> read(const std::string& text, const scene::Scene& scene) const {
+    std::ofstream(folder_ / "a.geojson") << text;
+    return readAreas(folder_ / "a.geojson", scene);
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(AreaFiles, polygonsHolesAndNames) {
+  const auto areas = read(R"({"type":"FeatureCollection","crs":null,"features":[
+    {"type":"Feature","properties":{"name":"park"},"geometry":{"type":"Polygon","coordinates":[[[0,0],[0,10],[10,10],[10,0],[0,0]],[[2,2],[4,2],[4,4],[2,4],[2,2]]]}},
+    {"type":"Feature","id":7,"properties":null,"geometry":{"type":"MultiPolygon","coordinates":[[[[20,0],[30,0],[30,10],[20,0]]],[[[40,0],[50,0],[50,10],[40,0]]]]}},
+    {"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[1,2]}}]})",
+                          sceneOf({}));
+  ASSERT_TRUE(areas) << areas.error().text();
+  ASSERT_EQ(areas->size(), 2u);
+  EXPECT_EQ((*areas)[0].name, "park");
+  EXPECT_NEAR((*areas)[0].region.area, 96.0, 1e-6);
+  EXPECT_EQ((*areas)[1].name, "7");
+  EXPECT_NEAR((*areas)[1].region.area, 100.0, 1e-6);
+}
+
+TEST_F(AreaFiles, degreesAreProjectedToTheScene) {
+  scene::Scene scene = sceneOf({});
+  scene.crs = geo::localCrs({16.37, 48.2});
+  // A hundredth of a degree of latitude is 1112 m, of longitude there 743 m.
+  const auto areas =
+      read(R"({"type":"Polygon","coordinates":[[[16.37,48.2],[16.38,48.2],[16.38,48.21],[16.37,48.21],[16.37,48.2]]]})",
+           scene);
+  ASSERT_TRUE(areas) << areas.error().text();
+  EXPECT_NEAR((*areas)[0].region.area, 1112.0 * 743.0, 4000.0);
+  EXPECT_LT(glm::length((*areas)[0].region.polygons[0].outer[0]), 1400.0);
+}
+
+TEST_F(AreaFiles, refusals) {
+  const auto refused = [&](const std::string& text, const char* says) {
+    const auto areas = read(text, sceneOf({}));
+    ASSERT_FALSE(areas) << says;
+    EXPECT_EQ(areas.error().code, ErrorCode::input);
+    EXPECT_THAT(areas.error().text(), HasSubstr(says));
+  };
+  refused(R"({"type":"Polygon","coordinates":[[[16,48],[17,48],[17,49],[16,48]]]})", "no reference system");
+  refused(R"({"type":"Polygon","crs":null,"coordinates":[[[16,48],["x",48],[17,49],[16,48]]]})",
+          "feature 1 is no polygon");
+  refused(R"({"type":"FeatureCollection","crs":null,"features":[]})", "has no polygon");
+  refused(R"({"type":"FeatureCollection","crs":null})", "has no polygon");
+  refused(R"({"type":"Polygon","crs":null,"coordinates":[[[0,0],[1,1]]]})", "feature 1 is no polygon");
+  refused("PK", "is not JSON");
+  EXPECT_FALSE(readAreas(folder_ / "nothing.geojson", sceneOf({})));
+}
+
+}  // namespace
+}  // namespace umbrage::rules
