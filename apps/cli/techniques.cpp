@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "choice.hpp"
@@ -49,13 +51,15 @@ std::string traitsText(const shadow::Traits& traits) {
 
 std::string rowsText(const std::vector<Row>& rows) {
   const Graphics graphics = findGraphics();
+  std::size_t width = 0;
+  for (const Row& row : rows) width = std::max(width, row.traits.name.size());
   std::string text;
   for (const auto& [traits, obstacle] : rows) {
-    text += fmt::format("{:<12} {}\n", traits.name, traits.summary);
-    text += fmt::format("{:<12} {}\n", "", traitsText(traits));
-    if (!obstacle.empty()) text += fmt::format("{:<12} cannot run here: {}\n", "", obstacle);
+    text += fmt::format("{:<{}} {}\n", traits.name, width, traits.summary);
+    text += fmt::format("{:<{}} {}\n", "", width, traitsText(traits));
+    if (!obstacle.empty()) text += fmt::format("{:<{}} cannot run here: {}\n", "", width, obstacle);
   }
-  text += fmt::format("{:<12} {}\n", "graphics",
+  text += fmt::format("{:<{}} {}\n", "graphics", width,
                       graphics.renderer.empty() ? "none: " + graphics.reason : graphics.renderer);
   return printable(text);
 }
