@@ -12,6 +12,7 @@
 #include "umbrage/shadow/facing.hpp"
 #include "umbrage/shadow/finders/threads.hpp"
 #include "umbrage/shadow/phase_clock.hpp"
+#include "umbrage/shadow/veil_layers.hpp"
 
 namespace umbrage::render {
 namespace {
