@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "graphics.hpp"
 #include "umbrage/techniques/cpu/registry.hpp"
 
 namespace umbrage::cli {
