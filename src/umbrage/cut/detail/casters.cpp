@@ -52,6 +52,9 @@ Projected Face::project(const Vec3& p) const {
 
 namespace {
 
+// Sine of the angle between two faces that rounding cannot have tilted against each other.
+constexpr double kSteep = 1e-3;
+
 /// A corner of what of a caster lies over a face.
 struct Over {
   Projected at;
@@ -93,6 +96,10 @@ bool isBefore(const Casters& casters, const Face& face, std::uint32_t triangle) 
     highest = std::max(highest, h), lowest = std::min(lowest, h);
   }
   if (highest <= nothing || lowest > nothing) return lowest > nothing;
+  // A steep one only looks low where a light that rakes along the face sees no higher part of it.
+  const trace::Corners c = casters.corners(triangle);
+  const Vec3 normal = glm::cross(c.b - c.a, c.c - c.a);
+  if (glm::length(glm::cross(normal, face.up)) > kSteep * glm::length(normal)) return true;
   for (int k = 0; k < 3; ++k) corners[static_cast<std::size_t>(k)].at = face.project(casters.set.corner(triangle, k));
   return highestOver(face, corners) > nothing;
 }
