@@ -17,6 +17,7 @@ namespace umbrage::cli {
 [[nodiscard]] Run addGallery(CLI::App& app);
 [[nodiscard]] Run addHours(CLI::App& app);
 [[nodiscard]] Run addIsochrones(CLI::App& app);
+[[nodiscard]] Run addVerify(CLI::App& app);
 [[nodiscard]] Run addTerrain(CLI::App& app);
 [[nodiscard]] Run addCut(CLI::App& app);
 [[nodiscard]] Run addSample(CLI::App& app);

@@ -21,6 +21,20 @@ void addFlag(CLI::App& app, const std::string& name, const std::string& help, bo
   app.add_flag(name, target, help);
 }
 
+void addAnswer(CLI::App& app, const std::string& name, const std::string& form, const std::string& help,
+               std::function<Result<std::string>(const std::string&)> answer, const Manner& manner) {
+  const auto tell = [answer = std::move(answer)](const std::string& word) -> std::string {
+    const auto text = answer(word);
+    // What the version does: its text is printed, and nothing that is required is missed.
+    if (text) throw CLI::CallForVersion(*text, 0);
+    return text.error().message;
+  };
+  if (!form.empty()) return addOption(app, name, form, help, tell, manner);
+  app.add_flag_callback(
+         name, [tell] { tell({}); }, help)
+      ->group(manner.group);
+}
+
 void addWord(CLI::App& app, const std::string& name, const std::string& form, const std::string& help,
              std::string& target, const Manner& manner) {
   addValue(app, name, form, help, target, parseWord, manner);

@@ -32,6 +32,10 @@ void addOption(CLI::App& app, const std::string& name, const std::string& form, 
 
 void addFlag(CLI::App& app, const std::string& name, const std::string& help, bool& target);
 
+/// An option that answers at once, whatever else is wanted of the command: `answer` is given its word (none without a form).
+void addAnswer(CLI::App& app, const std::string& name, const std::string& form, const std::string& help,
+               std::function<Result<std::string>(const std::string&)> answer, const Manner& manner = {});
+
 /// An option whose word `parse` (word -> Result) turns into `target`.
 template <class T, class Parse>
 void addValue(CLI::App& app, const std::string& name, const std::string& form, const std::string& help, T& target,

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "inverse.hpp"
 #include "map.hpp"
 #include "moments.hpp"
 #include "umbrage/report/colours.hpp"
@@ -22,7 +23,20 @@ struct EnvelopeOptions {
   double tolerance = 0.01;  ///< metres
   MapOptions map;
   bool merged = false;
+  bool inverse = false;
+  RuleOptions rule;
+  std::optional<double> cell, most;
 };
+
+// What belongs to the other kind of envelope.
+Result<void> checkKind(const EnvelopeOptions& o) {
+  const RuleOptions& r = o.rule;
+  const bool ruled = !r.preset.empty() || !r.baseline.empty() || !r.site.empty() || !r.areas.empty() ||
+                     !r.points.empty() || !r.windows.empty() || !r.country.empty() || r.grid || r.height ||
+                     r.leastAltitude || o.cell || o.most;
+  if (ruled && !o.inverse) return fail(ErrorCode::usage, "presets, sites and columns belong to --inverse");
+  return {};
+}
 
 Result<outline::SweepPeriod> periodOf(const EnvelopeOptions& options, const scene::Scene& scene,
                                       const sun::Place& place, double reach, const Console& console) {
@@ -65,6 +79,12 @@ void addShadows(report::VectorMap& map, std::vector<outline::Shadow> shadows, co
 }
 
 Result<Outcome> run(const EnvelopeOptions& options, const Console& console) {
+  if (const auto fine = checkKind(options); !fine) return tl::unexpected(fine.error());
+  if (options.inverse) {
+    RuleOptions rule = options.rule;
+    rule.plane = options.map.plane;
+    return inverseVolume({options.scene, options.place, rule, options.cell, options.most, options.map.output}, console);
+  }
   if (const auto open = checkMapFile(options.map, options.scene.file); !open) return tl::unexpected(open.error());
   const auto scene = loadScene(options.scene, console);
   if (!scene) return tl::unexpected(scene.error());
@@ -130,6 +150,15 @@ Run addEnvelope(CLI::App& app) {
            options->tolerance, [](const std::string& word) { return parseNumber(word, 1e-5, 1e3); });
   addMapOptions(app, options->map);
   addFlag(app, "--merged", "One outline for all parts together", options->merged);
+  addFlag(app, "--inverse",
+          "The tallest volume on a site that still passes a preset; -o may be a model (.glb, .obj, ..) too",
+          options->inverse);
+  addRuleOptions(app, options->rule, false);
+  const auto metres = [](const std::string& word) { return parseNumber(word, 1e-3, 1e4); };
+  addValue(app, "--cell", "M", "With --inverse: from column to column, in metres (default: a hundred columns)",
+           options->cell, metres, {.group = "Rule"});
+  addValue(app, "--max-height", "M", "With --inverse: nothing grows higher (default 100)", options->most, metres,
+           {.group = "Rule"});
   return [options](const Console& console) { return run(*options, console); };
 }
 

@@ -36,6 +36,8 @@ constexpr Command kCommands[] = {
     {"envelope", "The ground that is in shadow at some moment of a period, as exact outlines", addEnvelope},
     {"hours", "Exact hours of sun at points, on a grid or on faces, as table, heat map, GeoTIFF or model", addHours},
     {"isochrones", "Where a plane has at least so many hours of sun or shadow, as outlines", addIsochrones},
+    {"verify", "Whether a scene meets a regulation of sunlight, with evidence; exit code 1 where it does not",
+     addVerify},
     {"terrain", "Hours of sun on a height raster of any size, tile by tile", addTerrain},
     {"cut", "Surfaces cut into lit and shadowed polygons, as model, and their areas", addCut},
     {"sample", "Writes one of the scenes that come with the program", addSample},

@@ -133,7 +133,8 @@ TEST(NetNew, areaHoursAreTheIntegral) {
                      detail::hoursOf(detail::total(afternoon.when(isNew))));
     }
   EXPECT_GT(sum, 50.0);
-  EXPECT_NEAR(news->areas[0].areaHours / sum, 1.0, 5e-3);  // the grid's own error: the shadow is a strip of 50 rows at most
+  EXPECT_NEAR(news->areas[0].areaHours / sum, 1.0,
+              5e-3);  // the grid's own error: the shadow is a strip of 50 rows at most
 }
 
 // The shadow of a box cut to a rectangle, side by side of the rectangle.
@@ -141,11 +142,11 @@ double shadeOn(const Block& b, const Vec2& min, const Vec2& max, const Vec2& slo
   // The corners of the hull of ground plan and roof: of each corner that of the two which lies farther out in some direction.
   std::vector<Vec2> points;
   for (int i = 0; i < 8; ++i) {
-    const Vec3 p((i & 1) != 0 ? b.max.x : b.min.x, (i & 2) != 0 ? b.max.y : b.min.y,
-                 (i & 4) != 0 ? b.max.z : b.min.z);
+    const Vec3 p((i & 1) != 0 ? b.max.x : b.min.x, (i & 2) != 0 ? b.max.y : b.min.y, (i & 4) != 0 ? b.max.z : b.min.z);
     points.push_back(Vec2(p) + p.z * slope);
   }
-  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& c) { return a.x != c.x ? a.x < c.x : a.y < c.y; });
+  std::sort(points.begin(), points.end(),
+            [](const Vec2& a, const Vec2& c) { return a.x != c.x ? a.x < c.x : a.y < c.y; });
   outline::Ring hull;
   for (const int pass : {0, 1}) {
     const std::size_t base = hull.size();

@@ -135,7 +135,8 @@ std::vector<LedgerLine> ledgerOf(const scene::Scene& scene, const scene::Scene* 
       study::northLine(scene),
       study::unitLine(scene),
       {"Receivers", targets.described},
-      study::castersLine(request.casters),
+      rule.casters == CastersOf::site ? LedgerLine{"Casters", "only what stands on the site"}
+                                      : study::castersLine(request.casters),
       {"Time", "exact: solved for the moments at which edges uncover and cover the sun"},
       study::inputLine(scene)};
   if (baseline != nullptr) ledger.push_back({"Baseline", study::inputLine(*baseline).text});

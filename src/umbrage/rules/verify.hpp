@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,11 @@ namespace umbrage::rules {
 /// When switches are looked at (see Verdict::switches).
 enum class Sensitivity { never, nearThreshold, always };
 
+/// Days of the sun that were worked out. Requests that share one do not work out the same day twice (12 ms each, which is most of the time of rules of a
+/// whole year); any places, rules and conventions may share it, one request at a time.
+class SunDays;
+[[nodiscard]] std::shared_ptr<SunDays> makeSunDays();
+
 struct VerifyRequest {
   sun::Place place;
   sun::Zone zone;                      ///< what the clock of the place shows
@@ -20,6 +26,7 @@ struct VerifyRequest {
   Sensitivity sensitivity = Sensitivity::nearThreshold;
   std::chrono::milliseconds near{15 * 60'000};  ///< a margin of at most so much is near
   std::vector<std::string> casters;             ///< for the ledger: patterns that chose what casts
+  std::shared_ptr<SunDays> days;                ///< empty: of this request alone
 };
 
 /// What one receiver has.

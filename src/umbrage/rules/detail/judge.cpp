@@ -7,6 +7,19 @@
 
 #include "umbrage/base/check.hpp"
 
+namespace umbrage::rules {
+
+class SunDays {
+ public:
+  /// A window, the least height of the sun in it (0 where none is asked for), a place, and the conventions.
+  using Key = std::tuple<sun::Instant, sun::Instant, double, double, double, sun::Refraction, study::SunPoint, bool>;
+  std::map<Key, std::shared_ptr<const detail::Day>> known;
+};
+
+std::shared_ptr<SunDays> makeSunDays() { return std::make_shared<SunDays>(); }
+
+}  // namespace umbrage::rules
+
 namespace umbrage::rules::detail {
 namespace {
 
@@ -262,19 +275,12 @@ bool allPass(const std::vector<Finding>& findings) {
   return std::all_of(findings.begin(), findings.end(), [](const Finding& f) { return f.passes; });
 }
 
-class DayMemo {
- public:
-  /// A window and the least height of the sun in it, which is 0 where none is asked for.
-  using Key = std::tuple<sun::Instant, sun::Instant, double>;
-  std::map<Key, std::shared_ptr<const Day>> days;
-};
-
 Conventions conventionsOf(const Rule& rule, const VerifyRequest& request) {
   return {{request.place, request.zone, request.date},
           rule.sun,
           rule.fixedDeclination,
           false,
-          std::make_shared<DayMemo>()};
+          request.days ? request.days : makeSunDays()};
 }
 
 Result<std::shared_ptr<const Day>> dayOf(const Measure& measure, year_month_day date, const Conventions& conventions) {
@@ -282,16 +288,24 @@ Result<std::shared_ptr<const Day>> dayOf(const Measure& measure, year_month_day 
   if (!window) return tl::unexpected(window.error());
   if (!*window) return std::shared_ptr<const Day>();
   const TimeSpan span = **window;
-  const DayMemo::Key key{span.from, span.to, measure.leastAltitude ? measure.leastAltitude->radians() : 0.0};
-  if (const auto known = conventions.memo->days.find(key); known != conventions.memo->days.end()) return known->second;
+  const SunDays::Key key{span.from,
+                         span.to,
+                         measure.leastAltitude ? measure.leastAltitude->radians() : 0.0,
+                         conventions.calendar.place.latitude.radians(),
+                         conventions.calendar.place.longitude.radians(),
+                         conventions.sun.refraction,
+                         conventions.sun.point,
+                         conventions.fixedDeclination};
+  if (const auto known = conventions.days->known.find(key); known != conventions.days->known.end())
+    return known->second;
   study::SunModel model = conventions.sun;
   if (conventions.fixedDeclination)
-    model.declination = study::declinationAt(
-        sun::instantOfHourAngle(conventions.calendar.place, span.from + span.length() / 2, {}));
+    model.declination =
+        study::declinationAt(sun::instantOfHourAngle(conventions.calendar.place, span.from + span.length() / 2, {}));
   Day day{date, study::SunCourse::make(conventions.calendar.place, span, model), {}};
   day.counting = countingTimes(day.course, measure.leastAltitude);
   auto made = day.counting.empty() ? nullptr : std::make_shared<const Day>(std::move(day));
-  conventions.memo->days.emplace(key, made);
+  conventions.days->known.emplace(key, made);
   return made;
 }
 

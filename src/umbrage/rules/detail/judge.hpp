@@ -15,16 +15,13 @@ struct Day {
   Spans counting;
 };
 
-/// Days that were worked out: ephemerides are dear, and the same days are asked for again and again.
-class DayMemo;
-
 /// The conventions of one run.
 struct Conventions {
   Calendar calendar;
   study::SunModel sun;
   bool fixedDeclination = false;
   bool clockSwitched = false;
-  std::shared_ptr<DayMemo> memo;  ///< of these conventions and no others
+  std::shared_ptr<SunDays> days;
 };
 [[nodiscard]] Conventions conventionsOf(const Rule& rule, const VerifyRequest& request);
 

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "json.hpp"
+#include "umbrage/report/vector_map.hpp"
+#include "umbrage/rules/net_new.hpp"
+#include "umbrage/rules/verify.hpp"
+
+// A verdict and what it rests on, as text, JSON, CSV and map.
+namespace umbrage::cli {
+
+/// What a day brings in new shadow.
+struct DayNews {
+  std::chrono::year_month_day date{};
+  rules::NetNew news;
+};
+
+/// Everything that `verify` found out.
+struct VerdictReport {
+  rules::Verdict verdict;
+  rules::VerifyRequest request;
+  rules::TargetSet targets;
+  std::vector<rules::Area> areas;  ///< the open spaces, or the site
+  std::vector<DayNews> news;
+};
+
+[[nodiscard]] std::string verdictText(const VerdictReport& report);
+[[nodiscard]] Json verdictJson(const VerdictReport& report);
+/// A row for each receiver and requirement.
+[[nodiscard]] std::string verdictCsv(const VerdictReport& report);
+/// The areas, the receivers that fail, and the new shadow of the moments. `map` has title, ledger and buildings.
+void addVerdict(report::VectorMap& map, const VerdictReport& report, const scene::Scene& scene);
+
+}  // namespace umbrage::cli

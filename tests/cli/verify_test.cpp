@@ -1,0 +1,217 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+// Verdicts of regulations on the command line: exit codes, evidence, refusals.
+namespace umbrage::cli_test {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+using Json = nlohmann::json;
+
+class Verify : public CliTest {
+ protected:
+  static Ran run(std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return umbrage(words);
+  }
+  std::string points() const { return write("p.csv", "x,y,z,nx,ny,nz\n0,14,1.5,0,-1,0\n0,3,1.5,0,-1,0\n"); }
+  // A box of 2 m by 2 m about the origin; a park north of it.
+  std::string park() const {
+    return write("park.geojson", R"({"type":"Feature","properties":{"name":"park"},"geometry":{"type":"Polygon",
+      "coordinates":[[[-4,2],[4,2],[4,8],[-4,8],[-4,2]]]},"crs":null})");
+  }
+  const std::vector<std::string> kBeijing = {"--lat",  "39.9",       "--lon", "116.4",
+                                             "--date", "2026-01-01", "--tz",  "Asia/Shanghai"};
+  const std::vector<std::string> kNewYork = {"--lat",  "40.71",      "--lon", "-74",
+                                             "--date", "2026-01-01", "--tz",  "-05:00"};
+};
+
+TEST_F(Verify, ListsAndPrintsItsPresets) {
+  const Ran list = umbrage({"verify", "--list-presets"});
+  EXPECT_EQ(list.code, 0) << list.err;
+  for (const char* name :
+       {"japan-4-2.5", "china-dahan-2", "korea", "en17037-high", "bre209", "din5034-1", "tno-light", "poland", "nsw",
+        "montreal-parks", "vancouver", "boston-parks", "san-francisco-1", "nyc-ceqr"})
+    EXPECT_THAT(list.out, HasSubstr(name));
+  const Ran text = umbrage({"verify", "--print-preset", "korea"});
+  EXPECT_EQ(text.code, 0);
+  EXPECT_EQ(Json::parse(text.out).at("name"), "korea");
+  EXPECT_EQ(umbrage({"verify", "--print-preset", "chosun"}).code, 2);
+}
+
+TEST_F(Verify, ExitCodeIsTheVerdict) {
+  const auto low = writeBox("low.off", 2), high = writeBox("high.off", 40);
+  const Ran passes = run({"verify", low, "--preset", "china-dahan-2", "--points", points()}, kBeijing);
+  EXPECT_EQ(passes.code, 0) << passes.err;
+  EXPECT_THAT(passes.out, AllOf(StartsWith("PASS  china-dahan-2"), HasSubstr("100.0 % of 2 receivers"),
+                                HasSubstr("GB 50180-2018"), HasSubstr("Uncertain in this preset:")));
+  const auto shed = write("shed.csv", "x,y,z,nx,ny,nz\n0,1.05,0.5,0,-1,0\n");
+  const Ran fails = run({"verify", high, "--preset", "china-dahan-2", "--points", shed}, kBeijing);
+  EXPECT_EQ(fails.code, 1) << fails.err;
+  EXPECT_THAT(fails.out, AllOf(StartsWith("FAIL"), HasSubstr("deciding")));
+}
+
+TEST_F(Verify, EvidenceIsATableAMapAndJson) {
+  const auto box = writeBox("box.off", 20);
+  const Ran table = run({"verify", box, "--preset", "bre209", "--areas", park(), "-o", file("e.csv")},
+                        {"--lat", "51.5", "--lon", "0", "--date", "2026-03-21", "--tz", "Europe/London"});
+  EXPECT_THAT(table.code, testing::AnyOf(0, 1)) << table.err;
+  EXPECT_THAT(table.err, HasSubstr("without --baseline"));
+  const std::string csv = read("e.csv");
+  EXPECT_THAT(csv, StartsWith("group,requirement,x,y,z,"));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 48);
+  EXPECT_THAT(read("e.csv.ledger.txt"), AllOf(HasSubstr("SHA-256"), HasSubstr("BR 209"), HasSubstr("2026-03-21"),
+                                              HasSubstr("centre of the disc")));
+  const auto before = writeBox("before.off", 5);
+  const Ran map = run({"verify", box, "--baseline", before, "--preset", "nyc-ceqr", "--areas", park(), "--json", "-o",
+                       file("e.geojson")},
+                      kNewYork);
+  EXPECT_EQ(map.code, 1) << map.err;
+  const Json verdict = Json::parse(map.out), evidence = Json::parse(read("e.geojson"));
+  EXPECT_EQ(verdict.at("passes"), false);
+  EXPECT_EQ(verdict.at("new_shadow").size(), 4u);
+  const Json& march = verdict.at("new_shadow").at(0);
+  EXPECT_EQ(march.at("date"), "2026-03-21");
+  const Json& visit = march.at("areas").at(0).at("visits").at(0);
+  EXPECT_LT(visit.at("enters").get<std::string>(), visit.at("leaves").get<std::string>());
+  EXPECT_GT(march.at("areas").at(0).at("area_hours").get<double>(), 0.0);
+  bool shadows = false, failing = false;
+  for (const Json& feature : evidence.at("features")) {
+    const auto layer = feature.at("properties").at("layer").get<std::string>();
+    shadows = shadows || layer.starts_with("new shadow, 2026-");
+    failing = failing || layer == "fails";
+  }
+  EXPECT_TRUE(shadows && failing);
+  for (const char* subject : {"Rule", "Source", "Verdict", "Place", "Date", "Clock", "Sun", "North", "Unit",
+                              "Receivers", "Casters", "Input", "Baseline", "Made by", "Uncertain"})
+    EXPECT_TRUE(evidence.at("umbrage").contains(subject)) << subject;
+  // The same input gives the same bytes.
+  const std::string first = read("e.geojson");
+  EXPECT_EQ(run({"verify", box, "--baseline", before, "--preset", "nyc-ceqr", "--areas", park(), "--json", "-o",
+                 file("e.geojson")},
+                kNewYork)
+                .out,
+            map.out);
+  EXPECT_EQ(read("e.geojson"), first);
+}
+
+TEST_F(Verify, NearItsThresholdItTellsOfOtherConventions) {
+  const Ran always = run(
+      {"verify", writeBox(), "--preset", "china-dahan-2", "--points", points(), "--sensitivity", "always"}, kBeijing);
+  for (const char* name : {"clock", "refraction", "limb", "declination"})
+    EXPECT_THAT(always.out, HasSubstr(std::string("\n  ") + name));
+  EXPECT_THAT(always.out, HasSubstr("Asia/Shanghai instead of true solar time"));
+  const Ran far = run({"verify", writeBox(), "--preset", "china-dahan-2", "--points", points()}, kBeijing);
+  EXPECT_THAT(far.out, Not(HasSubstr("instead of")));
+}
+
+TEST_F(Verify, ARuleOfOnesOwn) {
+  const auto box = writeBox();
+  Json rule = Json::parse(umbrage({"verify", "--print-preset", "china-dahan-2"}).out);
+  rule["name"] = "mine", rule["requirements"][0]["at_least_hours"] = 7.99;
+  const auto shed = write("shed.csv", "x,y,z,nx,ny,nz\n0,1.05,0.5,0,-1,0\n");
+  const Ran ran = run({"verify", box, "--preset", write("mine.json", rule.dump()), "--points", shed}, kBeijing);
+  EXPECT_EQ(ran.code, 1) << ran.err;
+  EXPECT_THAT(ran.out, StartsWith("FAIL  mine"));
+  rule["requirements"][0]["at_least_hours"] = 9;
+  const Ran contradiction =
+      run({"verify", box, "--preset", write("mine.json", rule.dump()), "--points", points()}, kBeijing);
+  EXPECT_EQ(contradiction.code, 3);
+  EXPECT_THAT(contradiction.err, AllOf(HasSubstr("mine.json"), HasSubstr("requirements[0]"),
+                                       HasSubstr("9 h are wanted of a window of 8 h")));
+}
+
+TEST_F(Verify, RefusalsSayWhy) {
+  const auto box = writeBox();
+  const auto refused = [&](std::vector<std::string> words, const std::vector<std::string>& where, int code,
+                           const std::string& says) {
+    words.insert(words.begin(), {"verify", box});
+    const Ran ran = run(words, where);
+    EXPECT_EQ(ran.code, code) << says << ran.err;
+    EXPECT_EQ(ran.out, "") << says;
+    EXPECT_THAT(ran.err, HasSubstr(says));
+  };
+  const std::vector<std::string> sydney = {"--lat",  "-33.9",      "--lon", "151",
+                                           "--date", "2026-01-01", "--tz",  "Australia/Sydney"};
+  refused({"--preset", "china-dahan-9", "--points", points()}, kBeijing, 2, "china-dahan-3");
+  refused({"--preset", "none.json", "--points", points()}, kBeijing, 3, "none.json");
+  refused({"--preset", "china-dahan-2", "--points", points()}, sydney, 2, "northern hemisphere");
+  refused({"--preset", "nsw", "--points", points()}, kBeijing, 2, "southern hemisphere");
+  refused({"--preset", "japan-3-2"}, kBeijing, 2, "--site");
+  refused({"--preset", "bre209"}, kBeijing, 2, "--areas");
+  refused({"--preset", "korea"}, kBeijing, 2, "--points");
+  refused({"--preset", "korea", "--areas", park()}, kBeijing, 2, "not at --areas");
+  refused({"--preset", "bre209", "--points", points()}, kBeijing, 2, "not at --points");
+  refused({"--preset", "vancouver", "--areas", park()}, kNewYork, 2, "--baseline");
+  refused({"--preset", "en17037-high", "--points", points()}, kBeijing, 2, "--country");
+  refused({"--preset", "en17037-high", "--country", "XY", "--points", points()}, kBeijing, 2, "DE");
+  refused({"--preset", "korea", "--points", points(), "--windows", "*"}, kBeijing, 2, "exclude each other");
+  refused({"--preset", "korea", "--points", points(), "-o", file("e.png")}, kBeijing, 2, ".geojson");
+  refused({"--preset", "korea", "--points", points(), "-o", file("p.csv")}, kBeijing, 2, "p.csv");
+  refused({"--points", points()}, kBeijing, 2, "--preset");
+  const auto degrees = write("d.geojson", R"({"type":"Polygon","coordinates":[[[16,48],[17,48],[17,49],[16,48]]]})");
+  refused({"--preset", "bre209", "--areas", degrees}, kBeijing, 3, "reference system");
+  const auto other = write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  refused({"--preset", "nyc-ceqr", "--areas", park(), "--baseline", other}, kNewYork, 3, "one frame");
+  EXPECT_THAT(files(), ElementsAre("box.off", "d.geojson", "other.obj", "p.csv", "park.geojson"));
+}
+
+TEST_F(Verify, JapansSite) {
+  const auto site =
+      write("site.geojson", R"({"type":"Polygon","crs":null,"coordinates":[[[-3,-3],[3,-3],[3,3],[-3,3],[-3,-3]]]})");
+  const std::vector<std::string> tokyo = {"--lat",  "35.68",      "--lon", "139.7",
+                                          "--date", "2026-01-01", "--tz",  "Asia/Tokyo"};
+  const Ran low = run({"verify", writeBox("low.off", 6), "--preset", "japan-4-2.5", "--site", site}, tokyo);
+  EXPECT_EQ(low.code, 0) << low.err;
+  EXPECT_THAT(low.out, AllOf(HasSubstr("from 5 m to 10 m"), HasSubstr("farther than 10 m")));
+  const auto wide = write("wide.off",
+                          "OFF\n8 6 0\n-30 -2 0\n30 -2 0\n30 2 0\n-30 2 0\n-30 -2 25\n30 -2 25\n30 2 25\n-30 2 25\n"
+                          "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
+  const Ran high = run({"verify", wide, "--preset", "japan-4-2.5", "--site", site}, tokyo);
+  EXPECT_EQ(high.code, 1) << high.err;
+  const auto elsewhere =
+      write("else.geojson", R"({"type":"Polygon","crs":null,"coordinates":[[[50,50],[60,50],[60,60],[50,50]]]})");
+  const Ran none = run({"verify", wide, "--preset", "japan-4-2.5", "--site", elsewhere}, tokyo);
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.err, HasSubstr("no part that casts"));
+}
+
+TEST_F(Verify, TheTallestVolume) {
+  const auto house = writeBox("house.off", 3);
+  const auto site = write(
+      "site.geojson", R"({"type":"Polygon","crs":null,"coordinates":[[[-8,-16],[8,-16],[8,-8],[-8,-8],[-8,-16]]]})");
+  const auto window = write("w.csv", "x,y,z,nx,ny,nz\n0,-1,1.5,0,-1,0\n");
+  for (const char* name : {"v.geojson", "v.glb", "v.svg"}) {
+    const Ran ran = run({"envelope", house, "--inverse", "--preset", "china-dahan-3", "--site", site, "--points",
+                         window, "--cell", "4", "--max-height", "60", "-o", file(name)},
+                        kBeijing);
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_THAT(ran.out, AllOf(StartsWith(file(name)), HasSubstr("8 columns"), HasSubstr("it passes as it is")));
+  }
+  const Json map = Json::parse(read("v.geojson"));
+  ASSERT_EQ(map.at("features").size(), 8u);
+  double lowest = 1e9;
+  for (const Json& feature : map.at("features"))
+    lowest = std::min(lowest, feature.at("properties").at("height").get<double>());
+  EXPECT_GT(lowest, 1.5);
+  EXPECT_LT(lowest, 60.0);
+  // What was written passes by itself, beside the house.
+  EXPECT_EQ(umbrage({"info", file("v.glb")}).code, 0);
+  const Ran wanted = run(
+      {"envelope", house, "--inverse", "--preset", "china-dahan-3", "--points", window, "-o", file("x.svg")}, kBeijing);
+  EXPECT_EQ(wanted.code, 2);
+  EXPECT_THAT(wanted.err, HasSubstr("--site"));
+  const Ran plain = run({"envelope", house, "--preset", "china-dahan-3", "-o", file("x.svg")}, kBeijing);
+  EXPECT_EQ(plain.code, 2);
+  EXPECT_THAT(plain.err, HasSubstr("--inverse"));
+}
+
+}  // namespace
+}  // namespace umbrage::cli_test
