@@ -1,15 +1,12 @@
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 
 #include "commands.hpp"
-#include "map.hpp"
 #include "moments.hpp"
 #include "outputs.hpp"
 #include "rule_options.hpp"
-#include "umbrage/base/file.hpp"
-#include "verify_output.hpp"
+#include "verify_files.hpp"
 
 namespace umbrage::cli {
 namespace {
@@ -35,10 +32,11 @@ Result<rules::Sensitivity> parseSensitivity(const std::string& word) {
 
 Result<void> check(const VerifyOptions& o) {
   if (auto fine = checkRule(o.rule); !fine || o.output.empty()) return fine;
-  if (auto known = checkExtension("-o", o.output, {".csv", ".geojson", ".dxf", ".svg"}); !known) return known;
+  const auto files = verdictFiles(o.output);
+  if (!files) return tl::unexpected(files.error());
   for (const std::string& input :
        {o.scene.file, o.rule.baseline, o.rule.site, o.rule.areas, o.rule.points, o.rule.preset})
-    if (auto open = checkOutputs({o.output}, input); !open) return open;
+    if (auto open = checkOutputs(*files, input); !open) return open;
   return {};
 }
 
@@ -85,45 +83,6 @@ Result<std::vector<DayNews>> newsOf(const VerifyOptions& o, const scene::Scene& 
   return all;
 }
 
-std::string ledgerText(const std::vector<study::LedgerLine>& ledger) {
-  std::string text;
-  for (const study::LedgerLine& line : ledger) text += line.subject + ": " + line.text + "\n";
-  return text;
-}
-
-VerdictReport withWorstDay(VerdictReport report) {
-  const auto hours = [](const DayNews& day) {
-    double sum = 0.0;
-    for (const rules::AreaNews& area : day.news.areas) sum += area.areaHours;
-    return sum;
-  };
-  if (report.news.size() < 2) return report;
-  const auto worst = std::max_element(report.news.begin(), report.news.end(),
-                                      [&](const DayNews& a, const DayNews& b) { return hours(a) < hours(b); });
-  report.news = {*worst};
-  return report;
-}
-
-Result<void> writeEvidence(const VerifyOptions& o, const VerdictReport& report, const scene::Scene& scene,
-                           double plane) {
-  if (o.output.ends_with(".csv"))
-    return writeOutputs({{o.output + ".ledger.txt",
-                          [&](const std::string& path) { return writeFile(path, ledgerText(report.verdict.ledger)); }},
-                         {o.output, [&](const std::string& path) { return writeFile(path, verdictCsv(report)); }}});
-  auto map = mapOf(scene, outline::castersOf(scene), plane, report.request.place, o.place, "", {}, o.scene.casters);
-  if (!map) return tl::unexpected(map.error());
-  map->title = fmt::format("{}: {}", report.verdict.rule.name, report.verdict.passes ? "passes" : "fails");
-  map->subtitle = shortName(std::filesystem::path(scene.source).filename().string());
-  map->ledger = report.verdict.ledger;
-  map->ledger.insert(map->ledger.begin() + 2, {"Verdict", report.verdict.passes ? "passes" : "fails"});
-  for (const std::string& line : report.verdict.rule.uncertain) map->ledger.push_back({"Uncertain", line});
-  // A picture of several days is none: the day that brings most is drawn, and GeoJSON has them all.
-  addVerdict(*map, o.output.ends_with(".geojson") ? report : withWorstDay(report), scene);
-  MapOptions options;
-  options.output = o.output;
-  return write(*map, options);
-}
-
 // Where only a building's own shadow counts, what stands beside its site casts nothing.
 Result<scene::Scene> withRulesCasters(scene::Scene scene, const rules::Rule& rule, const RuleOptions& options) {
   if (rule.casters == rules::CastersOf::scene) return scene;
@@ -164,7 +123,9 @@ Result<Outcome> run(const VerifyOptions& o, const Console& console) {
   }
   report.targets = std::move(grounds->targets), report.areas = std::move(grounds->areas);
   if (!o.output.empty())
-    if (const auto written = writeEvidence(o, report, *scene, grounds->height); !written)
+    if (const auto written =
+            writeVerdict({o.output, *scene, o.place, o.scene.casters, grounds->height}, report, console);
+        !written)
       return tl::unexpected(written.error());
   const std::string path = o.output.empty() ? "" : o.output + "\n";
   return Outcome{o.json ? jsonText(verdictJson(report)) : path + verdictText(report), report.verdict.passes ? 0 : 1};
@@ -186,7 +147,8 @@ Run addVerify(CLI::App& app) {
            options->sensitivity, parseSensitivity, {.group = "Rule"});
   addValues(app, "--at", "HH:MM", "Moments whose new shadow is drawn (repeatable; default: the full hours)",
             options->at, sun::parseTime, {.group = "Place and time"});
-  addWord(app, "-o,--output", "OUT.{csv,geojson,dxf,svg}", "The evidence: receivers as a table, or a map",
+  addWord(app, "-o,--output", "OUT.{html,csv,geojson,dxf,svg}",
+          "The evidence: a page with all of it (and table, map and animation beside it), receivers as a table, or a map",
           options->output);
   addFlag(app, "--json", "The verdict as JSON", options->json);
   return [options](const Console& console) { return run(*options, console); };

@@ -9,6 +9,7 @@
 #include "umbrage/outline/combine.hpp"
 #include "umbrage/report/colours.hpp"
 #include "umbrage/study/georeference.hpp"
+#include "verify_words.hpp"
 
 namespace umbrage::cli {
 namespace {
@@ -22,55 +23,7 @@ using rules::Verdict;
 constexpr std::size_t kMostNamed = 10;  // receivers that fail, in the text
 constexpr double kMarker = 0.25;        // metres: half the side of the square that shows a point on the map
 
-std::string clockOf(const VerdictReport& r, sun::Instant instant) {
-  const auto time = sun::clockAt(r.request.zone, r.request.place, instant).clock.time;
-  const auto seconds = std::chrono::round<std::chrono::seconds>(time).count();
-  return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
-}
-
-std::string spansText(const VerdictReport& r, const std::vector<study::TimeSpan>& spans) {
-  std::string text;
-  for (const study::TimeSpan& span : spans)
-    text += fmt::format("{}{}-{}", text.empty() ? "" : ";", clockOf(r, span.from), clockOf(r, span.to));
-  return text;
-}
-
-// "1:05:30", with a sign where `sign` asks for it.
-std::string duration(double hours, bool sign = false) {
-  const auto seconds = std::llround(std::abs(hours) * 3600.0);
-  return fmt::format("{}{}:{:02}:{:02}",
-                     hours < 0 ? "-"
-                     : sign    ? "+"
-                               : "",
-                     seconds / 3600, seconds / 60 % 60, seconds % 60);
-}
-
-const char* quantity(const Measure& m) {
-  switch (m.statistic) {
-    case rules::Statistic::sun: return "of sun";
-    case rules::Statistic::longestSun: return "of sun without break";
-    case rules::Statistic::shadow: return "of shadow";
-    case rules::Statistic::newShadow: return "of new shadow";
-  }
-  return "";
-}
-const char* comparison(const Measure& m) {
-  switch (m.comparison) {
-    case rules::Comparison::atLeast: return "at least";
-    case rules::Comparison::moreThan: return "more than";
-    case rules::Comparison::atMost: return "at most";
-    case rules::Comparison::lessThan: return "less than";
-  }
-  return "";
-}
 const char* passText(bool passes) { return passes ? "passes" : "fails"; }
-
-const Requirement& requirementOf(const VerdictReport& r, const Finding& f) {
-  return r.verdict.rule.requirements[f.requirement];
-}
-const Vec3& placeOf(const VerdictReport& r, const ReceiverResult& result) {
-  return r.targets.targets[result.target].receiver.position;
-}
 
 std::string receiverText(const VerdictReport& r, const Finding& f, const ReceiverResult& result) {
   const Measure& m = requirementOf(r, f).anyOf[result.measure];

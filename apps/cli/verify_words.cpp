@@ -1,0 +1,56 @@
+#include "verify_words.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace umbrage::cli {
+
+std::string clockOf(const VerdictReport& r, sun::Instant instant) {
+  const auto time = sun::clockAt(r.request.zone, r.request.place, instant).clock.time;
+  const auto seconds = std::chrono::round<std::chrono::seconds>(time).count();
+  return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
+}
+
+std::string spansText(const VerdictReport& r, const std::vector<study::TimeSpan>& spans) {
+  std::string text;
+  for (const study::TimeSpan& span : spans)
+    text += fmt::format("{}{}-{}", text.empty() ? "" : ";", clockOf(r, span.from), clockOf(r, span.to));
+  return text;
+}
+
+std::string duration(double hours, bool sign) {
+  const auto seconds = std::llround(std::abs(hours) * 3600.0);
+  return fmt::format("{}{}:{:02}:{:02}",
+                     hours < 0 ? "-"
+                     : sign    ? "+"
+                               : "",
+                     seconds / 3600, seconds / 60 % 60, seconds % 60);
+}
+
+const char* quantity(const rules::Measure& m) {
+  switch (m.statistic) {
+    case rules::Statistic::sun: return "of sun";
+    case rules::Statistic::longestSun: return "of sun without break";
+    case rules::Statistic::shadow: return "of shadow";
+    case rules::Statistic::newShadow: return "of new shadow";
+  }
+  return "";
+}
+const char* comparison(const rules::Measure& m) {
+  switch (m.comparison) {
+    case rules::Comparison::atLeast: return "at least";
+    case rules::Comparison::moreThan: return "more than";
+    case rules::Comparison::atMost: return "at most";
+    case rules::Comparison::lessThan: return "less than";
+  }
+  return "";
+}
+const rules::Requirement& requirementOf(const VerdictReport& r, const rules::Finding& f) {
+  return r.verdict.rule.requirements[f.requirement];
+}
+const Vec3& placeOf(const VerdictReport& r, const rules::ReceiverResult& result) {
+  return r.targets.targets[result.target].receiver.position;
+}
+
+}  // namespace umbrage::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "verify_output.hpp"
+
+// How the outputs of `verify` put things.
+namespace umbrage::cli {
+
+/// What the clock asked for shows, to the second.
+[[nodiscard]] std::string clockOf(const VerdictReport& report, sun::Instant instant);
+/// "09:00:00-10:30:00;...".
+[[nodiscard]] std::string spansText(const VerdictReport& report, const std::vector<study::TimeSpan>& spans);
+/// "1:05:30", with a sign where `sign` asks for it.
+[[nodiscard]] std::string duration(double hours, bool sign = false);
+/// "of sun".
+[[nodiscard]] const char* quantity(const rules::Measure& measure);
+/// "at least".
+[[nodiscard]] const char* comparison(const rules::Measure& measure);
+
+[[nodiscard]] const rules::Requirement& requirementOf(const VerdictReport& report, const rules::Finding& finding);
+[[nodiscard]] const Vec3& placeOf(const VerdictReport& report, const rules::ReceiverResult& result);
+
+}  // namespace umbrage::cli
