@@ -1,5 +1,5 @@
 // Every preset of new shadow on three scenes, as in presets_test.
-#include "umbrage/rules/test_presets.hpp"
+#include "rules/presets.hpp"
 
 namespace umbrage::rules {
 namespace {

@@ -1,6 +1,6 @@
 // Every preset on three scenes: one that passes, one that fails, and one at the border, whose height was found by counting the moments at
 // which a box hides the sun, day by day and window by window, as written out here by hand.
-#include "umbrage/rules/test_presets.hpp"
+#include "rules/presets.hpp"
 
 namespace umbrage::rules {
 namespace {
