@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numeric>
 
 #include "console.hpp"
@@ -174,7 +175,8 @@ Result<report::StudyPage> verdictPage(const VerdictReport& r, const scene::Scene
   const rules::Verdict& v = r.verdict;
   report::StudyPage page;
   page.title = v.rule.title;
-  page.subtitle = fmt::format("{} ({})", shortName(scene.source), v.rule.where);
+  page.subtitle =
+      fmt::format("{} ({})", shortName(std::filesystem::path(scene.source).filename().string()), v.rule.where);
   page.passes = v.passes;
   page.verdict = verdictSentence(r);
   page.warnings = v.warnings;
