@@ -89,7 +89,11 @@ report::GalleryError summed(const std::string& truth, const std::vector<Agreemen
 class Hall {
  public:
   Hall(const GalleryOptions& options, const View& view, const Console& console)
-      : options_(options), view_(view), console_(console), geometry_(shadow::makeGeometry(view.scene)) {}
+      : options_(options),
+        view_(view),
+        console_(console),
+        geometry_(shadow::makeGeometry(view.scene)),
+        opaque_(withoutVeils(geometry_)) {}
 
   [[nodiscard]] const shadow::Geometry& geometry() const { return *geometry_; }
 
@@ -97,7 +101,7 @@ class Hall {
   Result<Shown> show(const shadow::Traits& traits) {
     Shown shown;
     shown.entry = {.name = traits.name, .summary = traits.summary, .traits = words(traits)};
-    const auto drawing = drawn(traits.name);
+    const auto drawing = drawn(traits.name, traits.tinted);
     if (!drawing) {
       shown.entry.obstacle = drawing.error().text();
       return shown;
@@ -110,21 +114,30 @@ class Hall {
  private:
   using Drawn = std::shared_ptr<const Drawing>;
 
+  using GeometryPtr = std::shared_ptr<const shadow::Geometry>;
+  /// To techniques that are not tinted every surface is opaque, so it must be to their truth.
+  static GeometryPtr withoutVeils(const GeometryPtr& geometry) {
+    if (geometry->filters.empty()) return geometry;
+    return std::make_shared<const shadow::Geometry>(shadow::Geometry{geometry->surfaces, geometry->casters});
+  }
+  [[nodiscard]] const GeometryPtr& geometryFor(bool tinted) const { return tinted ? geometry_ : opaque_; }
+
   /// Truths are kept, for all that are judged by them.
-  Result<Drawn> drawn(const std::string& name) {
-    if (const auto kept = truths_.find(name); kept != truths_.end()) return kept->second;
-    auto drawing = draw(name, geometry_, view_, console_, {static_cast<std::size_t>(options_.frames), true});
+  Result<Drawn> drawn(const std::string& name, bool tinted) {
+    const std::pair key(name, tinted);
+    if (const auto kept = truths_.find(key); kept != truths_.end()) return kept->second;
+    auto drawing = draw(name, geometryFor(tinted), view_, console_, {static_cast<std::size_t>(options_.frames), true});
     if (!drawing) return tl::unexpected(drawing.error());
     auto made = std::make_shared<const Drawing>(std::move(*drawing));
-    if (name == truthFor(made->traits, view_)) truths_.emplace(name, made);
+    if (name == truthFor(made->traits, view_)) truths_.emplace(key, made);
     return made;
   }
 
   Result<void> judge(const shadow::Traits& traits, const Drawing& drawing, Shown& shown) {
     if (traits.name == truthFor(traits, view_) || view_.lights.empty()) return {};
-    const auto truth = drawn(truthFor(traits, view_));
+    const auto truth = drawn(truthFor(traits, view_), traits.tinted);
     if (!truth) return tl::unexpected(truth.error());
-    const auto lights = compareDrawings(drawing, **truth, view_, geometry_);
+    const auto lights = compareDrawings(drawing, **truth, view_, geometryFor(traits.tinted));
     if (!lights) return tl::unexpected(lights.error());
     shown.entry.error = summed((*truth)->traits.name, *lights);
     shown.entry.error->unknown = unknownPixels(drawing);
@@ -147,8 +160,8 @@ class Hall {
   const GalleryOptions& options_;
   const View& view_;
   const Console& console_;
-  std::shared_ptr<const shadow::Geometry> geometry_;
-  std::map<std::string, Drawn> truths_;
+  GeometryPtr geometry_, opaque_;
+  std::map<std::pair<std::string, bool>, Drawn> truths_;  ///< by name, and whether veils let light through
 };
 
 std::string lightsText(const View& view) {
@@ -186,12 +199,9 @@ Json entryJson(const report::GalleryEntry& entry) {
   if (!entry.obstacle.empty()) return json;
   json["error"] = nullptr;
   if (entry.error)
-    json["error"] = {{"truth", entry.error->truth},
-                     {"differing", entry.error->differing},
-                     {"far_from_edge", entry.error->astray},
-                     {"covered", entry.error->covered},
-                     {"not_judged", entry.error->unknown},
-                     {"rms", entry.error->rms}};
+    json["error"] = {{"truth", entry.error->truth},          {"differing", entry.error->differing},
+                     {"far_from_edge", entry.error->astray}, {"covered", entry.error->covered},
+                     {"not_judged", entry.error->unknown},   {"rms", entry.error->rms}};
   json["prepare_ms"] = entry.prepareMs;
   json["frame_ms"] = entry.frameMs;
   json["frames"] = entry.frames;
