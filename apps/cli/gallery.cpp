@@ -20,6 +20,7 @@ namespace umbrage::cli {
 namespace {
 
 constexpr const char* kPage = "index.html";
+constexpr const char* kFigures = "gallery.json";
 constexpr const char* kMark = "content=\"umbrage gallery\"";
 constexpr double kMemory = 2.0 * 1024 * 1024 * 1024;
 constexpr double kBytesPerPixel = 9.0;  // of a picture, a mask and a difference
@@ -232,8 +233,7 @@ std::vector<FolderFile> files(const std::vector<Shown>& shown, const report::Gal
     add(one.entry.mask, one.mask);
     add(one.entry.difference, one.difference);
   }
-  list.push_back(
-      {"gallery.json", [&gallery](const std::string& path) { return writeFile(path, galleryJson(gallery)); }});
+  list.push_back({kFigures, [&gallery](const std::string& path) { return writeFile(path, galleryJson(gallery)); }});
   list.push_back(
       {kPage, [&gallery](const std::string& path) { return writeFile(path, report::galleryPage(gallery)); }});
   return list;
@@ -264,6 +264,17 @@ Result<void> checkMemory(const Size& size, std::size_t techniques) {
           size.width, size.height, techniques, bytes / (1024.0 * 1024.0 * 1024.0)));
 }
 
+/// Whether a gallery, of this build or another, has files of such a name.
+bool isOurs(const std::string& name) {
+  if (name == kPage || name == kFigures) return true;
+  constexpr std::string_view kPicture = ".png";
+  if (!name.ends_with(kPicture)) return false;
+  std::string_view technique(name.data(), name.size() - kPicture.size());
+  for (const std::string_view kind : {"-mask", "-difference"})
+    if (technique.ends_with(kind)) technique.remove_suffix(kind.size());
+  return std::ranges::any_of(allTechniques(), [&](const auto& entry) { return entry.traits.name == technique; });
+}
+
 std::string summary(const GalleryOptions& options, const std::vector<Shown>& shown) {
   const auto obstructed = static_cast<std::size_t>(
       std::ranges::count_if(shown, [](const Shown& one) { return !one.entry.obstacle.empty(); }));
@@ -274,7 +285,7 @@ std::string summary(const GalleryOptions& options, const std::vector<Shown>& sho
 }
 
 Result<Outcome> run(const GalleryOptions& options, const Console& console) {
-  if (const auto open = checkFolder(options.folder, kPage, kMark); !open) return tl::unexpected(open.error());
+  if (const auto open = checkFolder(options.folder, {kPage, kMark, isOurs}); !open) return tl::unexpected(open.error());
   auto scene = loadScene(options.scene, console);
   if (!scene) return tl::unexpected(scene.error());
   const auto view = makeView(std::move(*scene), options.view);

@@ -31,11 +31,12 @@ bool holds(const fs::path& file, const std::string& mark) {
   return text.find(mark) != std::string_view::npos;
 }
 
-/// Only plain files: what we write.
-bool isFlat(const fs::path& folder) {
+/// Only plain files of names that we write.
+bool holdsNothingElse(const fs::path& folder, const FolderContent& content) {
   std::error_code problem;
   for (fs::directory_iterator i(folder, problem), end; !problem && i != end; i.increment(problem))
-    if (!fs::is_regular_file(i->symlink_status(problem))) return false;
+    if (!fs::is_regular_file(i->symlink_status(problem)) || !content.isOurs(i->path().filename().string()))
+      return false;
   return !problem;
 }
 
@@ -73,7 +74,7 @@ Result<void> takePlace(const fs::path& made, const fs::path& folder, const fs::p
 
 }  // namespace
 
-Result<void> checkFolder(const fs::path& asked, const std::string& index, const std::string& mark) {
+Result<void> checkFolder(const fs::path& asked, const FolderContent& content) {
   const fs::path folder = named(asked);
   std::error_code ignored;
   const fs::path parent = parentOf(folder);
@@ -83,7 +84,9 @@ Result<void> checkFolder(const fs::path& asked, const std::string& index, const 
   const auto status = fs::symlink_status(folder, ignored);
   if (!fs::exists(status)) return {};
   if (!fs::is_directory(status)) return failed(folder, "it is there and no folder");
-  if (fs::is_empty(folder, ignored) || (isFlat(folder) && holds(folder / index, mark))) return {};
+  if (fs::is_empty(folder, ignored) ||
+      (holdsNothingElse(folder, content) && holds(folder / content.index, content.mark)))
+    return {};
   return fail(ErrorCode::usage, "holds other files, which would be lost; name a folder that does not exist yet",
               folder.string());
 }

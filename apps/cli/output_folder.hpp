@@ -9,10 +9,14 @@
 
 namespace umbrage::cli {
 
-/// Refuses a folder that cannot be made, or that holds anything but what an earlier writeFolder left there: it would be lost. `index`: the file that
-/// tells it, by having `mark` in it. Errors: output, usage.
-[[nodiscard]] Result<void> checkFolder(const std::filesystem::path& folder, const std::string& index,
-                                       const std::string& mark);
+/// What an earlier writeFolder left: a file that has a mark in it, and others of names that it may have written.
+struct FolderContent {
+  std::string index, mark;
+  std::function<bool(const std::string& name)> isOurs;
+};
+
+/// Refuses a folder that cannot be made, or that holds anything else: it would be lost. Errors: output, usage.
+[[nodiscard]] Result<void> checkFolder(const std::filesystem::path& folder, const FolderContent& content);
 
 /// A file of a folder: its name there, and how it is made at a path.
 struct FolderFile {

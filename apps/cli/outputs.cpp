@@ -53,7 +53,7 @@ bool endsWith(const std::string& path, const std::string& extension) {
 Result<void> checkOutputs(const std::vector<std::string>& paths, const std::string& input) {
   std::vector<std::string> seen;
   for (const auto& path : paths) {
-    if (sameFile(path, input)) return fail(ErrorCode::usage, "is the scene itself; give the output another name", path);
+    if (sameFile(path, input)) return fail(ErrorCode::usage, "is what the command reads; give the output another name", path);
     if (const auto writable = checkWritable(path); !writable) return writable;
     const auto place = absolute(path);
     if (std::find(seen.begin(), seen.end(), place) != seen.end())

@@ -259,16 +259,23 @@ std::string verdictCsv(const VerdictReport& r) {
     for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
     return out + "\"";
   };
-  std::string text = "group,requirement,x,y,z,nx,ny,nz,weight,from_site,passes,hours,threshold,margin,date,intervals\n";
-  for (const Finding& f : r.verdict.findings)
+  std::string text =
+      "group,requirement,x,y,z,nx,ny,nz,weight,from_site,passes,hours,threshold,margin,date,intervals,new_"
+      "share,at_most\n";
+  for (const Finding& f : r.verdict.findings) {
+    // What is asked of shares is no matter of single receivers.
+    if (f.newShare)
+      text += fmt::format("{},{},,,,,,,,,{},,,,,,{:.10g},{:.10g}\n", quoted(f.group), quoted(requirementOf(r, f).name),
+                          f.passes ? 1 : 0, *f.newShare, *requirementOf(r, f).mostNew);
     for (const ReceiverResult& result : f.receivers) {
       const rules::Target& t = r.targets.targets[result.target];
       const Vec3 &p = t.receiver.position, &n = t.receiver.normal;
-      text += fmt::format("{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.4f},{:.4f},{:.4f},{},{}\n",
+      text += fmt::format("{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.4f},{:.4f},{:.4f},{},{},,\n",
                           quoted(f.group), quoted(requirementOf(r, f).name), p.x, p.y, p.z, n.x, n.y, n.z, t.weight,
                           t.fromSite, result.passes ? 1 : 0, result.value, result.threshold, result.margin,
                           sun::dateText(result.date), spansText(r, result.spans));
     }
+  }
   return text;
 }
 

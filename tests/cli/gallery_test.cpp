@@ -101,6 +101,13 @@ TEST_F(GalleryCommand, KeepsFoldersThatHoldOtherThings) {
   EXPECT_FALSE(exists("out/index.html"));
 }
 
+TEST_F(GalleryCommand, KeepsWhatWasPutBesideAnEarlierOne) {
+  ASSERT_EQ(gallery({"--technique", "zpass_cpu"}).code, 0);
+  write("out/house.obj", "v 0 0 0\n");
+  EXPECT_EQ(gallery({"--technique", "zpass_cpu"}).code, 2);
+  EXPECT_EQ(read("out/house.obj"), "v 0 0 0\n");
+}
+
 TEST_F(GalleryCommand, RefusesPlacesThatAreNone) {
   write("out", "a file");
   EXPECT_EQ(gallery().code, 3);

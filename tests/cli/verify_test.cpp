@@ -102,6 +102,37 @@ TEST_F(Verify, EvidenceIsATableAMapAndJson) {
   EXPECT_EQ(read("e.geojson"), first);
 }
 
+TEST_F(Verify, SharesOfNewShadowAreInTheTableToo) {
+  const Ran ran = run({"verify", writeBox("box.off", 20), "--baseline", writeBox("before.off", 5), "--preset",
+                       "san-francisco-1", "--areas", park(), "-o", file("e.csv"), "--json"},
+                      kNewYork);
+  EXPECT_EQ(ran.code, 1) << ran.err;
+  const double share = Json::parse(ran.out).at("findings").at(0).at("new_share");
+  const std::string csv = read("e.csv");
+  const auto last = csv.rfind(",0.01\n"), before = csv.rfind(',', last - 1);
+  ASSERT_NE(last, std::string::npos) << csv;
+  EXPECT_NEAR(std::stod(csv.substr(before + 1)), share, 1e-9);
+}
+
+// Where the sun counts at no time, a limit on shadow would hold of itself; a polygon elsewhere has no shadow at all.
+TEST_F(Verify, NothingHoldsOfItself) {
+  const auto box = writeBox("box.off", 20), before = writeBox("before.off", 5);
+  const auto vancouver = [&](const std::string& areas, const std::string& zone) {
+    return umbrage({"verify", box, "--baseline", before, "--preset", "vancouver", "--areas", areas, "--lat", "40.71",
+                    "--lon", "-74", "--date", "2026-01-01", "--tz=" + zone});
+  };
+  const Ran night = vancouver(park(), "+09:00");
+  EXPECT_EQ(night.code, 2) << night.out;
+  EXPECT_THAT(night.err, HasSubstr("the sun counts at no time"));
+  EXPECT_THAT(vancouver(park(), "+02:00").err, HasSubstr("h away from the sun's at this longitude"));
+  EXPECT_THAT(vancouver(park(), "-05:00").err, Not(HasSubstr("away from the sun's")));
+  const auto elsewhere = write("elsewhere.geojson", R"({"type":"Polygon","coordinates":
+    [[[52000,4],[52004,4],[52004,8],[52000,8],[52000,4]]],"crs":null})");
+  const Ran far = vancouver(elsewhere, "-05:00");
+  EXPECT_EQ(far.code, 3) << far.out;
+  EXPECT_THAT(far.err, HasSubstr("52 km from the scene"));
+}
+
 TEST_F(Verify, NearItsThresholdItTellsOfOtherConventions) {
   const Ran always = run(
       {"verify", writeBox(), "--preset", "china-dahan-2", "--points", points(), "--sensitivity", "always"}, kBeijing);

@@ -57,7 +57,7 @@ class SceneCutter {
     });
     if (!done) return tl::unexpected(done.error());
     if (spent_)
-      return fail(ErrorCode::device,
+      return fail(ErrorCode::input,
                   "its shadows cross too often: cutting it takes more pieces or time than is allowed");
     Pieces all;
     for (const Pieces& p : tasks) append(all, p);

@@ -315,8 +315,21 @@ double Balance::error() const {
   return all > 0.0 ? sumOf(absorbed + escaped + unshot - emitted) / all : 0.0;
 }
 
-Result<Solution> solve(const scene::Scene& scene, std::span<const scene::Light> lights, const Options& asked,
+namespace {
+
+/// No paint is whiter, and in a closed room of albedo 1 light would never end.
+constexpr double kWhitest = 0.98;
+
+scene::Scene paintable(scene::Scene scene) {
+  for (scene::Material& material : scene.materials) material.colour = glm::min(material.colour, Vec3(kWhitest));
+  return scene;
+}
+
+}  // namespace
+
+Result<Solution> solve(const scene::Scene& given, std::span<const scene::Light> lights, const Options& asked,
                        const ProgressSink& progress) {
+  const scene::Scene scene = paintable(given);
   const auto surfaces = std::make_shared<const scene::Surfaces>(scene::flatten(scene));
   const Options options = completed(asked, *surfaces);
   auto occlusion = trace::Occlusion::build(surfaces);

@@ -70,6 +70,7 @@ struct Solution {
 ///    (visibleFactor), so in a closed room of one albedo r and one emission e every point has e / (1 - r).
 /// 3. Patches are as large as `patch` near the casters and grow with the distance from them. Elements are the leaves below them.
 /// 4. Where elements are cut after light was shot, the new points get all of it after the fact: the result is that of the finer mesh.
+///    What is whiter than 0.98 counts as 0.98: light would never end in a closed room of albedo 1.
 /// 5. Same input, same bits, in any number of threads.
 /// Cancelled by `progress`, it gives what there is, which is a picture too (with `ambient`).
 /// Errors: ErrorCode::device when memory runs out or rays cannot be had; input when the patches are more than a million.

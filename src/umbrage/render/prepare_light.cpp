@@ -189,7 +189,8 @@ void addGroup(LightVolume& out, const VolumeRequest& request, const Part& part, 
                               .components = chosen,
                               .reach = shape.reach(),
                               .keepSide = isSeen,
-                              .sidesAsEdges = sidesAsEdges(request)});
+                              .sidesAsEdges = sidesAsEdges(request),
+                              .eye = request.eye});
     };
     shadow::ShadowVolume volume;
     if (request.counting == Counting::eachTriangle) {

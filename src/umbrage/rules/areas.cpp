@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "umbrage/base/file.hpp"
 #include "umbrage/geo/projection.hpp"
 #include "umbrage/outline/combine.hpp"
 #include "umbrage/rules/detail/json_reader.hpp"
 #include "umbrage/rules/targets.hpp"
+#include "umbrage/study/georeference.hpp"
 
 namespace umbrage::rules {
 namespace {
@@ -114,6 +117,24 @@ std::string nameOf(const Json& feature, std::size_t number) {
   return id.empty() ? fmt::format("area {}", number) : id;
 }
 
+/// Farther from the scene, in its sizes and in metres, nobody means it.
+constexpr double kFarthestSizes = 20.0, kFarthestMetres = 20'000.0;
+
+/// How far areas lie from the scene, in metres, where that is too far to be meant.
+std::optional<double> farAway(const std::vector<Area>& areas, const scene::Scene& scene) {
+  const Box3 box = scene::bounds(scene);
+  if (box.empty()) return std::nullopt;
+  const Vec2 a = study::mapPoint(box.min, scene.up), b = study::mapPoint(box.max, scene.up);
+  const Vec2 low = glm::min(a, b), high = glm::max(a, b);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Area& area : areas)
+    for (const outline::Polygon& polygon : area.region.polygons)
+      for (const Vec2& p : polygon.outer) nearest = std::min(nearest, glm::length(p - glm::clamp(p, low, high)));
+  const double most = std::max(kFarthestSizes * glm::length(high - low), kFarthestMetres / scene.metresPerUnit);
+  if (!(nearest > most) || std::isinf(nearest)) return std::nullopt;
+  return nearest * scene.metresPerUnit;
+}
+
 }  // namespace
 
 Result<std::vector<Area>> readAreas(const std::filesystem::path& path, const scene::Scene& scene) {
@@ -138,6 +159,12 @@ Result<std::vector<Area>> readAreas(const std::filesystem::path& path, const sce
     if (!parts.empty()) areas.push_back({nameOf(feature, number), outline::together(parts)});
   }
   if (areas.empty()) return fail(ErrorCode::input, "has no polygon", path.string());
+  if (const auto far = farAway(areas, scene))
+    return fail(
+        ErrorCode::input,
+        fmt::format("lies {:.0f} km from the scene; GeoJSON has longitude before latitude, or names its \"crs\"",
+                    *far / 1000.0),
+        path.string());
   return areas;
 }
 

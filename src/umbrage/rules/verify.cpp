@@ -144,6 +144,40 @@ std::vector<LedgerLine> ledgerOf(const scene::Scene& scene, const scene::Scene* 
   return ledger;
 }
 
+/// Where the sun counts at no time, every figure is 0 and a limit on shadow would hold of itself.
+Result<void> checkCounts(const Rule& rule, const Conventions& conventions) {
+  for (const Requirement& r : rule.requirements)
+    for (const Measure& m : r.anyOf) {
+      if (m.statistic == Statistic::sun || m.statistic == Statistic::longestSun) continue;
+      bool counts = false;
+      for (const auto& date : detail::datesOf(m.days, conventions.calendar)) {
+        const auto day = detail::dayOf(m, date, conventions);
+        if (!day) return tl::unexpected(day.error());
+        if ((counts = *day && !(*day)->counting.empty())) break;
+      }
+      if (!counts)
+        return fail(
+            ErrorCode::usage,
+            fmt::format("the sun counts at no time of what '{}' looks at: is --tz the clock of this place?", r.name));
+    }
+  return {};
+}
+
+/// A clock that is hours off the sun's is mostly another place's.
+constexpr double kOddClockHours = 4.0;
+std::optional<std::string> oddClock(const VerifyRequest& request) {
+  if (request.zone.kind == sun::Zone::Kind::solar) return std::nullopt;
+  const auto noon = sun::instantOf(request.zone, request.place, {request.date, std::chrono::hours(12)});
+  if (!noon) return std::nullopt;
+  const double clock =
+      std::chrono::duration<double, std::ratio<3600>>(sun::clockAt(request.zone, request.place, noon->instant).offset)
+          .count();
+  const double off = std::remainder(clock - request.place.longitude.degrees() / 15.0, 24.0);
+  if (std::abs(off) < kOddClockHours) return std::nullopt;
+  return fmt::format("the clock {} is {:.1f} h away from the sun's at this longitude: is it the clock of this place?",
+                     request.zone.name, std::abs(off));
+}
+
 }  // namespace
 
 Result<void> detail::checkRequest(const Rule& rule, bool hasBaseline, const TargetSet& targets,
@@ -183,6 +217,7 @@ Result<Verdict> verify(const scene::Scene& scene, const scene::Scene* baseline, 
     *light = detail::sunOf(std::make_shared<const study::ExactHours>(std::move(*hours)));
   }
   const Conventions conventions = detail::conventionsOf(rule, request);
+  if (const auto counts = checkCounts(rule, conventions); !counts) return tl::unexpected(counts.error());
   auto findings = detail::judge(rule, lights, targets, conventions, progress);
   if (!findings) return tl::unexpected(findings.error());
   if (findings->empty()) return fail(ErrorCode::usage, fmt::format("no receiver lies where {} looks", rule.name));
@@ -198,6 +233,7 @@ Result<Verdict> verify(const scene::Scene& scene, const scene::Scene* baseline, 
     if (!switches) return tl::unexpected(switches.error());
     verdict.switches = std::move(*switches);
   }
+  if (auto odd = oddClock(request)) verdict.warnings.push_back(std::move(*odd));
   verdict.ledger = ledgerOf(scene, baseline, rule, targets, request, conventions);
   for (const Requirement& r : rule.requirements)
     if (r.former && baseline == nullptr)

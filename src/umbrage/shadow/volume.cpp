@@ -39,10 +39,10 @@ void appendEdge(std::vector<std::uint32_t>& out, const SilhouetteEdge& edge) {
   }
 }
 
-void appendCaps(std::vector<std::uint32_t>& out, mesh::Triangle corners, int side, bool toOnePoint) {
+void appendCaps(std::vector<std::uint32_t>& out, mesh::Triangle corners, int side, bool isSeen, bool toOnePoint) {
   if (side < 0) std::swap(corners[1], corners[2]);
   const auto [a, b, c] = corners;
-  append(out, nearVertex(a), nearVertex(b), nearVertex(c));
+  if (isSeen) append(out, nearVertex(a), nearVertex(b), nearVertex(c));
   if (!toOnePoint) append(out, farVertex(a), farVertex(c), farVertex(b));
 }
 
@@ -83,6 +83,9 @@ ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, con
   const auto chosen = [&](std::uint32_t component) {
     return options.components.empty() || options.components[component] != 0;
   };
+  const auto isSeen = [&](std::uint32_t t) {
+    return !options.eye || !liesInPlane(casters.corner(t, 0), casters.corner(t, 1), casters.corner(t, 2), *options.eye);
+  };
   ShadowVolume volume;
   const auto append = [&](const SilhouetteEdge& edge) {
     options.sidesAsEdges ? appendEdge(volume.sides, edge) : appendSide(volume.sides, edge, toOnePoint(edge.component));
@@ -96,7 +99,7 @@ ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, con
   if (options.components.empty()) volume.caps.reserve(casters.triangles.size() * perEdge);
   for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
     if (silhouette.side[t] != 0 && chosen(casters.componentOf[t]))
-      appendCaps(volume.caps, casters.triangles[t], silhouette.side[t], toOnePoint(casters.componentOf[t]));
+      appendCaps(volume.caps, casters.triangles[t], silhouette.side[t], isSeen(t), toOnePoint(casters.componentOf[t]));
   return volume;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,9 @@ struct ExtrudeOptions {
   bool sidesAsEdges = false;
   /// Far vertices are never taken for one point, so that they may be carried anywhere: all sides are quads and all caps have far caps.
   bool endsAnywhere = false;
+  /// Near caps in whose plane this point lies, relative to the origin of the casters, are left out: an eye there sees them edge-on, and single precision
+  /// would tilt them into its view.
+  std::optional<Vec3> eye = {};
 };
 
 [[nodiscard]] ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, const ExtrudeOptions& options = {});

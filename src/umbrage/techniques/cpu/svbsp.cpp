@@ -45,7 +45,7 @@ class LitFaces {
         spent = true;
     });
     if (!done) return tl::unexpected(done.error());
-    if (spent) return fail(ErrorCode::device, "svbsp: the shadows cross too often to be cut out of the surfaces");
+    if (spent) return fail(ErrorCode::input, "svbsp: the shadows cross too often to be cut out of the surfaces");
     for (const std::uint32_t t : missing) nodes_ += cuts_[t]->nodes().size();
     return {};
   }
