@@ -169,9 +169,9 @@ Run addRadiosity(CLI::App& app) {
   addWord(app, "--stats", "STATS.json", "What was done, where the light has gone, and how long it took",
           options->stats);
   addValue(app, "--patch", "SIZE",
-           "Edges of what gives off light, in the scene's unit (default: a twelfth of its radius)",
+           "Edges of what gives off light, in the scene's unit (default: a fifth of its radius)",
            options->solve.patch, numberIn(1e-9, 1e9), kLight);
-  addValue(app, "--element", "SIZE", "Edges of what receives it are cut no shorter (default: an eighth of --patch)",
+  addValue(app, "--element", "SIZE", "Edges of what receives it are cut no shorter (default: a sixteenth of --patch)",
            options->solve.element, numberIn(1e-9, 1e9), kLight);
   addValue(app, "--error", "E",
            "Elements are cut where light differs by more than this part of its mean; 0: never (default 0.1)",

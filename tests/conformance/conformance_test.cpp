@@ -68,6 +68,7 @@ TEST(ConformanceOfEyes, InFacesOfCasters) {
         {"face " + std::to_string(t), looking(eye, eye + u - 0.5 * v + 0.4 * size * normal, 70, 120, 90)});
   }
   for (const shadow::TechniqueEntry& entry : allTechniques()) judgeTechnique(entry, c, geometry);
+  for (const shadow::TechniqueEntry& entry : askedWays()) judgeTechnique(entry, c, geometry);
 }
 
 // Sixteen pixels of every view and light, those on which brute force is sure.

@@ -15,7 +15,7 @@ using detail::Factor;
 using detail::Patches;
 using detail::Side;
 
-constexpr double kPatchesPerRadius = 12.0, kElementsPerPatch = 8.0;
+constexpr double kPatchesPerRadius = 5.0, kElementsPerPatch = 16.0;
 constexpr std::size_t kPointsPerBlock = 64;
 
 double sumOf(const Vec3& v) { return v.x + v.y + v.z; }

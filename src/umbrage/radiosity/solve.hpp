@@ -17,8 +17,8 @@ namespace umbrage::radiosity {
 /// How exactly light is followed. Lengths are in scene units.
 struct Options {
   double patch =
-      0.0;  ///< edges of what gives off light are at most so long; 0: a twelfth of the radius of the scene's casters
-  double element = 0.0;  ///< edges of what receives it are cut no shorter; 0: an eighth of `patch`
+      0.0;  ///< edges of what gives off light are at most so long; 0: a fifth of the radius of the scene's casters
+  double element = 0.0;  ///< edges of what receives it are cut no shorter; 0: a sixteenth of `patch`
   /// Elements are cut where the light on them differs by more than this part of the scene's mean; 0: none is cut further than `patch` asks.
   double error = 0.1;
   double unshot = 1e-3;  ///< ends when so little of all light that was emitted still waits to be given off

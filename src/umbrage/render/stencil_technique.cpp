@@ -220,6 +220,9 @@ class StencilTechnique final : public GlTechnique {
     if (ended) ended("layers");
     shadow::LightStats onCard = stats;
     LightVolume prepared = prepareOnCard(request, onCard, ended);
+    // Caps that are seen edge-on are left out, which the processor does.
+    const bool hasCaps = counting_ == Counting::zFail || onCard.castersByZFail > 0;
+    if (hasCaps && shadow::isInAFacesPlane(request.casters(), request.eye)) return false;
     const bool endless = prepared.farPoints.empty(), toOnePoint = endless && request.light.w == 0.0;
     const SideFormat whole = toOnePoint ? SideFormat::triangle : SideFormat::quad;
     const CardRequest wanted{.light = request.light,

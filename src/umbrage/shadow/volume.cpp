@@ -70,7 +70,17 @@ Hit between(const std::array<Vec3, 3>& corner, int side, const Vec4& light, cons
   return ab == 0 || bc == 0 || ac == 0 ? Hit::unclear : Hit::yes;
 }
 
+bool isSeenEdgeOn(const CasterSet& casters, std::uint32_t t, const Vec3& point) {
+  return liesInPlane(casters.corner(t, 0), casters.corner(t, 1), casters.corner(t, 2), point);
+}
+
 }  // namespace
+
+bool isInAFacesPlane(const CasterSet& casters, const Vec3& point) {
+  for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
+    if (isSeenEdgeOn(casters, t, point)) return true;
+  return false;
+}
 
 ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, const ExtrudeOptions& options) {
   UMBRAGE_CHECK(options.components.empty() || options.components.size() == casters.componentCount,
@@ -83,9 +93,7 @@ ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, con
   const auto chosen = [&](std::uint32_t component) {
     return options.components.empty() || options.components[component] != 0;
   };
-  const auto isSeen = [&](std::uint32_t t) {
-    return !options.eye || !liesInPlane(casters.corner(t, 0), casters.corner(t, 1), casters.corner(t, 2), *options.eye);
-  };
+  const auto isSeen = [&](std::uint32_t t) { return !options.eye || !isSeenEdgeOn(casters, t, *options.eye); };
   ShadowVolume volume;
   const auto append = [&](const SilhouetteEdge& edge) {
     options.sidesAsEdges ? appendEdge(volume.sides, edge) : appendSide(volume.sides, edge, toOnePoint(edge.component));

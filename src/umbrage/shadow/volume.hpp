@@ -42,6 +42,9 @@ struct ExtrudeOptions {
   std::optional<Vec3> eye = {};
 };
 
+/// Whether a point, relative to the origin of the casters, lies in the plane of any of their triangles (liesInPlane).
+[[nodiscard]] bool isInAFacesPlane(const CasterSet& casters, const Vec3& point);
+
 [[nodiscard]] ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, const ExtrudeOptions& options = {});
 
 /// The caster surfaces between a point and the light.
