@@ -44,8 +44,19 @@ std::string absolute(const std::string& path) {
 // Letters count alike in either case.
 bool endsWith(const std::string& path, const std::string& extension) {
   const auto alike = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
-  return path.size() >= extension.size() &&
-         std::equal(extension.rbegin(), extension.rend(), path.rbegin(), alike);
+  return path.size() >= extension.size() && std::equal(extension.rbegin(), extension.rend(), path.rbegin(), alike);
+}
+
+// An .obj brings an .mtl of its name. One that is there without its .obj is somebody's.
+Result<void> checkMaterials(const std::string& path) {
+  if (!endsWith(path, ".obj")) return {};
+  const auto materials = std::filesystem::path(path).replace_extension(".mtl");
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored) || !std::filesystem::exists(materials, ignored)) return {};
+  return fail(ErrorCode::usage,
+              fmt::format("would overwrite {}, which belongs to something else; give the output another name",
+                          materials.filename().string()),
+              path);
 }
 
 }  // namespace
@@ -53,8 +64,10 @@ bool endsWith(const std::string& path, const std::string& extension) {
 Result<void> checkOutputs(const std::vector<std::string>& paths, const std::string& input) {
   std::vector<std::string> seen;
   for (const auto& path : paths) {
-    if (sameFile(path, input)) return fail(ErrorCode::usage, "is what the command reads; give the output another name", path);
+    if (sameFile(path, input))
+      return fail(ErrorCode::usage, "is what the command reads; give the output another name", path);
     if (const auto writable = checkWritable(path); !writable) return writable;
+    if (const auto free = checkMaterials(path); !free) return free;
     const auto place = absolute(path);
     if (std::find(seen.begin(), seen.end(), place) != seen.end())
       return fail(ErrorCode::usage, "is named for two outputs; give each its own name", path);

@@ -96,5 +96,17 @@ TEST_F(Cutting, RefusesWhatMakesNoSense) {
   EXPECT_EQ(files().size(), 1u);
 }
 
+TEST_F(Cutting, AnObjWritesNoMaterialsOfOthers) {
+  const auto box = writeBox();
+  write("house.mtl", "newmtl mine\n");
+  const Ran refused = umbrage({"cut", box, "-o", file("house.obj")});
+  EXPECT_EQ(refused.code, 2) << refused.err;
+  EXPECT_THAT(refused.err, testing::HasSubstr("house.mtl"));
+  EXPECT_EQ(read("house.mtl"), "newmtl mine\n");
+  // What came with an .obj goes with it.
+  EXPECT_EQ(umbrage({"cut", box, "-o", file("other.obj")}).code, 0);
+  EXPECT_EQ(umbrage({"cut", box, "-o", file("other.obj")}).code, 0);
+}
+
 }  // namespace
 }  // namespace umbrage::cli_test

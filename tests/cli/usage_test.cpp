@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
         render("Unit", {"--unit", "km"}, "--unit"), render("North", {"--north", "400"}, "--north"),
         render("Casters", {"--casters", "no-such-part"}, "no-such-part"),
         render("OneNameTwice", {"--mask", "OUT"}, "two outputs"),
-        Wrong{"OverTheScene", {"render", "BOX", "--stats", "BOX"}, "the scene itself"},
+        Wrong{"OverTheScene", {"render", "BOX", "--stats", "BOX"}, "what the command reads"},
         Wrong{"OneNameForPictureAndMask",
               {"render", "BOX", "-o", "m-1.png", "--mask", "m.png", "--light", "point:1,1,9", "--light", "point:2,1,9"},
               "two outputs"},

@@ -254,10 +254,10 @@ TEST(Cut, TooMuchIsAnErrorAndNoFlood) {
   const scene::Light light = sun({0, 0, -1});
   auto cut = cutSurfaces(geometry, {&light, 1}, {}, Effort::Limits{1 << 30, 2000});
   ASSERT_FALSE(cut.has_value());
-  EXPECT_EQ(cut.error().code, ErrorCode::device);
+  EXPECT_EQ(cut.error().code, ErrorCode::input);
   cut = cutSurfaces(geometry, {&light, 1}, {}, Effort::Limits{10000, 1 << 30});
   ASSERT_FALSE(cut.has_value());
-  EXPECT_EQ(cut.error().code, ErrorCode::device);
+  EXPECT_EQ(cut.error().code, ErrorCode::input);
 }
 
 TEST(Cut, CrossingCombsComeOutRight) {

@@ -30,7 +30,7 @@ inline constexpr std::size_t kMostLights = 64;
 
 /// Cuts all surfaces by the shadows of all casters under each light (see LightCutter).
 /// REQUIRES: at most kMostLights lights, all valid.
-/// Errors: ErrorCode::device when the work passes `limits` (none: Effort::usual) or memory runs out; as the sink says when it asks to stop.
+/// Errors: ErrorCode::input when the work passes `limits` (none: Effort::usual), ErrorCode::device when memory runs out; as the sink says when it asks to stop.
 [[nodiscard]] Result<Pieces> cutSurfaces(const std::shared_ptr<const shadow::Geometry>& geometry,
                                          std::span<const scene::Light> lights, const ProgressSink& progress = {},
                                          const std::optional<Effort::Limits>& limits = {});
