@@ -1,3 +1,4 @@
+#include "umbrage/render/detail/card_technique.hpp"
 #include "umbrage/render/mask_technique.hpp"
 
 #include <umbrage_shaders/mask_add_frag.hpp>
@@ -30,16 +31,14 @@ SampleBlock sampleBlock(const shadow::LightSample& sample, const Vec3& eye, std:
   return block;
 }
 
-class MaskTechnique final : public GlTechnique {
+class MaskTechnique final : public detail::CardTechnique {
  public:
   MaskTechnique(const shadow::Traits& traits, MaskPainterMaker makePainter, std::shared_ptr<gl::Context> context)
-      : traits_(traits), makePainter_(std::move(makePainter)), context_(std::move(context)) {}
+      : CardTechnique(traits, std::move(context)), makePainter_(std::move(makePainter)) {}
   ~MaskTechnique() override {
     const gl::CurrentContext current(context_);
     own_.reset();
   }
-
-  [[nodiscard]] const shadow::Traits& traits() const override { return traits_; }
 
   Result<void> prepare(std::shared_ptr<const shadow::Geometry> geometry) override {
     const gl::CurrentContext current(context_);
@@ -75,23 +74,12 @@ class MaskTechnique final : public GlTechnique {
     return shading;
   }
 
-  Result<shadow::FrameStats> draw(GpuFrame& target, const shadow::Frame& frame, const PictureOptions& options,
-                                  bool timed) override {
-    UMBRAGE_CHECK(geometry_ != nullptr, "prepare() first");
-    UMBRAGE_CHECK(target.width() == frame.camera.width && target.height() == frame.camera.height, "picture size");
-    const gl::CurrentContext current(context_);
-    gl::HostScope scope;
-    if (auto done = target.needPicture(); !done) return tl::unexpected(done.error());
-    shadow::FrameStats stats;
-    shadow::PhaseClock clock(stats.phases);
-    PhaseEnd ended;
-    if (timed) ended = [&](const char* phase) { clock.end(phase); };
-    if (auto done = render(scope, target, frame, &options, false, stats, ended); !done)
-      return tl::unexpected(done.error());
-    return stats;
+ private:
+  Result<void> paint(gl::HostScope& scope, GpuFrame& target, const shadow::Frame& frame, const PictureOptions& options,
+                     shadow::FrameStats& stats, const PhaseEnd& ended) override {
+    return render(scope, target, frame, &options, false, stats, ended);
   }
 
- private:
   // All that lives in the context.
   struct Own {
     explicit Own(std::unique_ptr<MaskPainter> made) : painter(std::move(made)) {}
@@ -268,10 +256,7 @@ class MaskTechnique final : public GlTechnique {
     return (ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0);
   }
 
-  shadow::Traits traits_;
   MaskPainterMaker makePainter_;
-  std::shared_ptr<gl::Context> context_;
-  std::shared_ptr<const shadow::Geometry> geometry_;
   Box3 room_;  ///< that holds all surfaces, in the world
   std::unique_ptr<Own> own_;
 };

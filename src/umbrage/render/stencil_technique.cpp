@@ -2,10 +2,10 @@
 
 #include "umbrage/gl/read_back.hpp"
 #include "umbrage/render/depth_bounds.hpp"
+#include "umbrage/render/detail/card_technique.hpp"
 #include "umbrage/render/frame_data.hpp"
 #include "umbrage/render/gpu_finder.hpp"
 #include "umbrage/render/run_passes.hpp"
-#include "umbrage/render/technique.hpp"
 #include "umbrage/render/uniforms.hpp"
 #include "umbrage/shadow/phase_clock.hpp"
 
@@ -39,17 +39,15 @@ std::string reasonFor(Counting counting, Overflow overflow, const shadow::LightS
   return text;
 }
 
-class StencilTechnique final : public GlTechnique {
+class StencilTechnique final : public detail::CardTechnique {
  public:
   StencilTechnique(const shadow::Traits& traits, Counting counting, const VolumeOptions& options,
                    std::shared_ptr<gl::Context> context)
-      : traits_(traits), counting_(counting), options_(options), context_(std::move(context)) {}
+      : CardTechnique(traits, std::move(context)), counting_(counting), options_(options) {}
   ~StencilTechnique() override {
     const gl::CurrentContext current(context_);
     own_.reset();
   }
-
-  [[nodiscard]] const shadow::Traits& traits() const override { return traits_; }
 
   Result<void> prepare(std::shared_ptr<const shadow::Geometry> geometry) override {
     const gl::CurrentContext current(context_);
@@ -84,24 +82,14 @@ class StencilTechnique final : public GlTechnique {
     return shading;
   }
 
-  Result<shadow::FrameStats> draw(GpuFrame& target, const shadow::Frame& frame, const PictureOptions& options,
-                                  bool timed) override {
-    UMBRAGE_CHECK(geometry_ != nullptr, "prepare() first");
-    UMBRAGE_CHECK(target.width() == frame.camera.width && target.height() == frame.camera.height, "picture size");
-    const gl::CurrentContext current(context_);
-    gl::HostScope scope;
-    if (auto done = target.needPicture(); !done) return tl::unexpected(done.error());
-    shadow::FrameStats stats;
-    shadow::PhaseClock clock(stats.phases);
-    PhaseEnd ended;
-    if (timed) ended = [&](const char* phase) { clock.end(phase); };
-    if (auto done = render(scope, target, frame, Product::picture, &options, stats, ended); !done)
-      return tl::unexpected(done.error());
-    if (timed) tellCounts(stats);
-    return stats;
+ private:
+  Result<void> paint(gl::HostScope& scope, GpuFrame& target, const shadow::Frame& frame, const PictureOptions& options,
+                     shadow::FrameStats& stats, const PhaseEnd& ended) override {
+    if (auto done = render(scope, target, frame, Product::picture, &options, stats, ended); !done) return done;
+    if (ended) tellCounts(stats);
+    return {};
   }
 
- private:
   // All that lives in the context.
   struct Own {
     std::optional<GpuScene> scene;
@@ -301,11 +289,8 @@ class StencilTechnique final : public GlTechnique {
         .depthBounds = bounds};
   }
 
-  shadow::Traits traits_;
   Counting counting_;
   VolumeOptions options_;
-  std::shared_ptr<gl::Context> context_;
-  std::shared_ptr<const shadow::Geometry> geometry_;
   std::unique_ptr<shadow::SilhouetteFinder> finder_;
   std::unique_ptr<Own> own_;
   std::optional<shadow::SurfaceBuffer> seen_;  // of the frame being drawn, once it has been read back

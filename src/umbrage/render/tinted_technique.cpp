@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "umbrage/gl/read_back.hpp"
+#include "umbrage/render/detail/card_technique.hpp"
 #include "umbrage/render/run_passes.hpp"
 #include "umbrage/render/soft_sums.hpp"
-#include "umbrage/render/technique.hpp"
 #include "umbrage/render/tinted_passes.hpp"
 #include "umbrage/shadow/facing.hpp"
 #include "umbrage/shadow/finders/threads.hpp"
@@ -87,17 +87,15 @@ void countPenumbra(const shadow::LightMask& mask, shadow::SoftStats& stats) {
   }
 }
 
-class TintedTechnique final : public GlTechnique {
+class TintedTechnique final : public detail::CardTechnique {
  public:
   TintedTechnique(const shadow::Traits& traits, Counting counting, const VolumeOptions& options,
                   std::shared_ptr<gl::Context> context)
-      : traits_(traits), counting_(counting), options_(options), context_(std::move(context)) {}
+      : CardTechnique(traits, std::move(context)), counting_(counting), options_(options) {}
   ~TintedTechnique() override {
     const gl::CurrentContext current(context_);
     own_.reset();
   }
-
-  [[nodiscard]] const shadow::Traits& traits() const override { return traits_; }
 
   Result<void> prepare(std::shared_ptr<const shadow::Geometry> geometry) override {
     const gl::CurrentContext current(context_);
@@ -137,34 +135,24 @@ class TintedTechnique final : public GlTechnique {
     return shading;
   }
 
-  Result<shadow::FrameStats> draw(GpuFrame& target, const shadow::Frame& frame, const PictureOptions& options,
-                                  bool timed) override {
-    UMBRAGE_CHECK(geometry_ != nullptr, "prepare() first");
-    UMBRAGE_CHECK(target.width() == frame.camera.width && target.height() == frame.camera.height, "picture size");
-    const gl::CurrentContext current(context_);
-    gl::HostScope scope;
-    if (auto done = target.needPicture(); !done) return tl::unexpected(done.error());
-    shadow::FrameStats stats;
-    shadow::PhaseClock clock(stats.phases);
-    PhaseEnd ended;
-    if (timed) ended = [&](const char* phase) { clock.end(phase); };
+ private:
+  Result<void> paint(gl::HostScope& scope, GpuFrame& target, const shadow::Frame& frame, const PictureOptions& options,
+                     shadow::FrameStats& stats, const PhaseEnd& ended) override {
     auto seen = begin(scope, target, frame, &options, ended);
     if (!seen) return tl::unexpected(seen.error());
-    if (auto done = own_->passes->beginPicture(*seen, own_->shading); !done) return tl::unexpected(done.error());
+    if (auto done = own_->passes->beginPicture(*seen, own_->shading); !done) return done;
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-      if (auto done = light(*seen, frame, i, stats, ended); !done) return tl::unexpected(done.error());
-      if (auto done = own_->passes->addLight(*seen, static_cast<int>(i)); !done) return tl::unexpected(done.error());
+      if (auto done = light(*seen, frame, i, stats, ended); !done) return done;
+      if (auto done = own_->passes->addLight(*seen, static_cast<int>(i)); !done) return done;
     }
-    if (auto done = own_->passes->endPicture(*seen, own_->shading, frame.lights.size()); !done)
-      return tl::unexpected(done.error());
-    if (timed) {
+    if (auto done = own_->passes->endPicture(*seen, own_->shading, frame.lights.size()); !done) return done;
+    if (ended) {
       gl::finish();
       ended("lit");
     }
-    return stats;
+    return {};
   }
 
- private:
   // All that lives in the context.
   struct Own {
     std::optional<GpuScene> scene;
@@ -392,11 +380,8 @@ class TintedTechnique final : public GlTechnique {
     return mask;
   }
 
-  shadow::Traits traits_;
   Counting counting_;
   VolumeOptions options_;
-  std::shared_ptr<gl::Context> context_;
-  std::shared_ptr<const shadow::Geometry> geometry_;
   std::unique_ptr<shadow::SilhouetteFinder> finder_;
   std::unique_ptr<Own> own_;
   View view_;  ///< of the frame being drawn
