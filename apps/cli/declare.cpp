@@ -22,16 +22,20 @@ void addFlag(CLI::App& app, const std::string& name, const std::string& help, bo
 }
 
 void addAnswer(CLI::App& app, const std::string& name, const std::string& form, const std::string& help,
-               std::function<Result<std::string>(const std::string&)> answer, const Manner& manner) {
+               std::function<Result<Outcome>(const std::string&)> answer, const Manner& manner) {
   const auto tell = [answer = std::move(answer)](const std::string& word) -> std::string {
-    const auto text = answer(word);
+    const auto outcome = answer(word);
     // What the version does: its text is printed, and nothing that is required is missed.
-    if (text) throw CLI::CallForVersion(*text, 0);
-    return text.error().message;
+    if (outcome) throw CLI::CallForVersion(outcome->text, outcome->code);
+    return outcome.error().message;
   };
   if (!form.empty()) return addOption(app, name, form, help, tell, manner);
   app.add_flag_callback(
-         name, [tell] { tell({}); }, help)
+         name,
+         [name, tell] {
+           if (const auto problem = tell({}); !problem.empty()) throw CLI::ValidationError(name, problem);
+         },
+         help)
       ->group(manner.group);
 }
 

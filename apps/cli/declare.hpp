@@ -34,7 +34,7 @@ void addFlag(CLI::App& app, const std::string& name, const std::string& help, bo
 
 /// An option that answers at once, whatever else is wanted of the command: `answer` is given its word (none without a form).
 void addAnswer(CLI::App& app, const std::string& name, const std::string& form, const std::string& help,
-               std::function<Result<std::string>(const std::string&)> answer, const Manner& manner = {});
+               std::function<Result<Outcome>(const std::string&)> answer, const Manner& manner = {});
 
 /// An option whose word `parse` (word -> Result) turns into `target`.
 template <class T, class Parse>

@@ -72,7 +72,8 @@ std::string describe(const CLI::ParseError& problem, const std::string& command,
 
 // CLI11's many exit codes become ours: help and version are no errors, all else is usage.
 int explain(const CLI::App& app, const CLI::ParseError& problem, const std::vector<std::string>& words) {
-  if (problem.get_name() == "CallForVersion") return print(fmt::format("{}\n", problem.what())) ? 0 : 3;
+  if (problem.get_name() == "CallForVersion")
+    return print(fmt::format("{}\n", problem.what())) ? problem.get_exit_code() : 3;
   if (problem.get_name() == "CallForHelp") return print(app.help()) ? 0 : 3;
   const auto given = app.get_subcommands();
   const auto command = given.empty() ? std::string() : given.front()->get_name();

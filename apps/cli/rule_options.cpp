@@ -13,18 +13,19 @@ constexpr double kGrid = 1.0;
 // Points on a line, of the grid's step.
 constexpr double kAlong = 0.25;
 
-Result<std::string> presetList(const std::string&) {
+Result<Outcome> presetList(const std::string&) {
   std::string text;
   for (const rules::Rule& rule : rules::presets())
     text += fmt::format("{:<26}{}{}\n", rule.name, rule.title, rules::needsBaseline(rule) ? "  [--baseline]" : "");
   text.pop_back();
-  return text;
+  return Outcome{text, 0};
 }
 
-Result<std::string> presetText(const std::string& name) {
+Result<Outcome> presetText(const std::string& name) {
   auto text = rules::presetText(name);
-  if (text) text->pop_back();
-  return text;
+  if (!text) return tl::unexpected(text.error());
+  text->pop_back();
+  return Outcome{*text, 0};
 }
 
 Result<rules::TargetSet> pointsOf(const RuleOptions& o, const rules::Rule& rule, const scene::Scene& scene) {

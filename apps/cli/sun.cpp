@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "json.hpp"
 #include "place.hpp"
+#include "self_check.hpp"
 #include "umbrage/study/ledger.hpp"
 #include "umbrage/sun/sun.hpp"
 
@@ -95,6 +96,10 @@ Run addSun(CLI::App& app) {
   addValue(app, "--at", "HH:MM[:SS]", "The time on that clock", options->time, sun::parseTime,
            {.group = "Place and time", .required = true});
   addFlag(app, "--json", "As JSON", options->json);
+  addAnswer(app, "--self-check", "",
+            "Holds this program's sun, days and times of shadow against ERFA by another road, and no more; exit code 1 "
+            "where they differ by more than they should",
+            selfCheck);
   return [options](const Console& console) { return run(*options, console); };
 }
 

@@ -7,32 +7,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "umbrage/sun/detail/julian_date.hpp"
+
 namespace umbrage::sun {
 namespace {
 
-constexpr double kUnixEpoch = 2440587.5;  // Julian date of 1970-01-01
-constexpr double kMillisecondsPerDay = 86400e3;
-constexpr double kTtMinusTai = 32.184;                                          // seconds
 constexpr double kSolarParallax = Angle::degrees(8.794143 / 3600.0).radians();  // equatorial, at 1 au
 constexpr double kPi = std::numbers::pi;
-
-// A Julian date in two parts, the first a whole number plus a half, as ERFA likes it.
-struct JulianDate {
-  double day, fraction;
-};
-
-JulianDate julianDate(Instant instant) {
-  const auto day = std::chrono::floor<std::chrono::days>(instant);
-  return {kUnixEpoch + double(day.time_since_epoch().count()), double((instant - day).count()) / kMillisecondsPerDay};
-}
-
-double leapSeconds(Instant instant) {
-  const auto day = std::chrono::floor<std::chrono::days>(instant);
-  const std::chrono::year_month_day date(day);
-  double taiMinusUtc = 0.0;  // stays 0 before 1960, where the table begins
-  eraDat(int(date.year()), int(unsigned(date.month())), int(unsigned(date.day())), 0.0, &taiMinusUtc);
-  return taiMinusUtc;
-}
 
 // The geocentric apparent sun, in the Earth-fixed equatorial frame: hour angle at Greenwich, declination, distance in
 // au.
@@ -41,8 +22,8 @@ struct ApparentSun {
 };
 
 ApparentSun apparentSun(Instant instant) {
-  const JulianDate ut = julianDate(instant);
-  const double ttFraction = ut.fraction + (kTtMinusTai + leapSeconds(instant)) / 86400.0;
+  const detail::JulianDate ut = detail::julianDate(instant);
+  const double ttFraction = ut.fraction + detail::ttMinusUtc(instant) / 86400.0;
   eraASTROM frame;
   double equationOfOrigins;
   eraApci13(ut.day, ttFraction, &frame, &equationOfOrigins);
@@ -95,7 +76,7 @@ Instant instantOfHourAngle(const Place& place, Instant near, Angle angle) {
   // thousandfold.
   for (int pass = 0; pass < 4; ++pass) {
     const double missing = eraAnpm(angle.radians() - hourAngle(place, near).radians());
-    near += std::chrono::milliseconds(std::llround(missing / (2.0 * kPi) * kMillisecondsPerDay));
+    near += std::chrono::milliseconds(std::llround(missing / (2.0 * kPi) * detail::kMillisecondsPerDay));
   }
   return near;
 }
