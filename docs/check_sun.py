@@ -7,9 +7,17 @@ import json
 import random
 import subprocess
 import sys
+import warnings
 
-import erfa
-import numpy as np
+try:
+    import erfa
+    import numpy as np
+except ImportError as missing:
+    print(f"{missing}: install python3-erfa", file=sys.stderr)
+    sys.exit(77)
+
+# Of years to come nobody knows the leap seconds; both sides take today's.
+warnings.simplefilter("ignore", erfa.ErfaWarning)
 
 LIGHT_SECONDS_PER_AU = 499.004784
 
