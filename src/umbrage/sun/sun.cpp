@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "umbrage/sun/detail/apparent_sun.hpp"
 #include "umbrage/sun/detail/julian_date.hpp"
 
 namespace umbrage::sun {
@@ -22,22 +23,10 @@ struct ApparentSun {
 };
 
 ApparentSun apparentSun(Instant instant) {
+  const Vec3 sun = detail::apparentSun(instant);
   const detail::JulianDate ut = detail::julianDate(instant);
-  const double ttFraction = ut.fraction + detail::ttMinusUtc(instant) / 86400.0;
-  eraASTROM frame;
-  double equationOfOrigins;
-  eraApci13(ut.day, ttFraction, &frame, &equationOfOrigins);
-  double heliocentric[2][3], barycentric[2][3];
-  eraEpv00(ut.day, ttFraction, heliocentric, barycentric);
-  double towards[3], distance, direction[3];
-  eraSxp(-1.0, heliocentric[0], towards);
-  eraPn(towards, &distance, direction);
-  // The sun hardly moves about the barycentre while its light travels, so aberration alone accounts for the light time.
-  double apparent[3], intermediate[3], rightAscension, declination;
-  eraAb(direction, frame.v, distance, frame.bm1, apparent);
-  eraRxp(frame.bpn, apparent, intermediate);
-  eraC2s(intermediate, &rightAscension, &declination);
-  return {eraAnpm(eraEra00(ut.day, ut.fraction) - rightAscension), declination, distance};
+  const double rightAscension = std::atan2(sun.y, sun.x), declination = std::atan2(sun.z, std::hypot(sun.x, sun.y));
+  return {eraAnpm(eraEra00(ut.day, ut.fraction) - rightAscension), declination, glm::length(sun)};
 }
 
 }  // namespace
