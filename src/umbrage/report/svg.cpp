@@ -15,7 +15,7 @@ using outline::Polygon;
 using outline::Ring;
 
 constexpr double kMapSide = 960.0, kPanel = 320.0, kMargin = 24.0, kLine = 15.5;
-constexpr std::size_t kLettersInLine = 46;
+constexpr std::size_t kLettersInLine = 46, kLettersInTitle = 25;
 constexpr double kRoom = 0.04;  // around what is drawn, of its size
 
 struct Frame {
@@ -53,12 +53,14 @@ image::Rgb8 darker(const image::Rgb8& c) {
   return {down(c.r), down(c.g), down(c.b)};
 }
 
-std::vector<std::string> wrapped(const std::string& text) {
+std::vector<std::string> wrapped(const std::string& text, std::size_t letters = kLettersInLine) {
   std::vector<std::string> lines;
   std::string rest = text;
-  while (rest.size() > kLettersInLine) {
-    auto cut = rest.rfind(' ', kLettersInLine);
-    if (cut == std::string::npos || cut < kLettersInLine / 2) cut = kLettersInLine;
+  while (rest.size() > letters) {
+    auto cut = rest.rfind(' ', letters);
+    if (cut == std::string::npos || cut < letters / 2) cut = letters;
+    // Never within a letter of several bytes.
+    while ((static_cast<unsigned char>(rest[cut]) & 0xC0U) == 0x80U) --cut;
     lines.push_back(rest.substr(0, cut));
     rest.erase(0, rest[cut] == ' ' ? cut + 1 : cut);
   }
@@ -205,7 +207,11 @@ class Svg {
 
   void drawPanel() {
     y_ = kMargin + 18;
-    text(map_.title, 20, "#21252d", true);
+    const auto title = wrapped(map_.title, kLettersInTitle);
+    for (std::size_t i = 0; i < title.size(); ++i) {
+      if (i > 0) y_ += 24;
+      text(title[i], 20, "#21252d", true);
+    }
     for (const std::string& line : wrapped(map_.subtitle)) {
       y_ += 18;
       text(line, 12, "#686e7a");

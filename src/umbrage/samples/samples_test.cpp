@@ -124,7 +124,7 @@ const std::map<std::string, Expected>& expectations() {
         4000,
         {-6, -5, -0.25},
         {6, 5, 4.0400390625},
-        6705907215128359498ull,
+        2415523805480208502ull,
         {"Pavilion/South/Panes", "Pavilion/East/Panes"},
         {}}},
       {"cornell", {98, 98, {-0.125, 0, 0}, {5.625, 5.625, 5.75}, 10523043275585144708ull, {"Lamp/Panel"}, {}}},
