@@ -1,5 +1,5 @@
 #version 450 core
-// Light from everywhere, more of it from above (shadow::skyLight).
+// Light from everywhere, more of it from above (shadow::skyLight), and what surfaces give off by themselves.
 layout(std140, binding = 1) uniform Shading {
   vec4 rayCorner;   // the ray through window coordinates (x, y): rayCorner + x * rayX + y * rayY, relative to the eye
   vec4 rayX;
@@ -14,7 +14,11 @@ layout(binding = 0) uniform usampler2D ids;
 const uint kNone = 0xffffffffu;
 layout(std430, binding = 1) readonly buffer Triangles { vec4 triangle[]; };  // unit normal; material as the bits of w
 layout(std430, binding = 2) readonly buffer Corners { uint corner[]; };
-layout(std430, binding = 4) readonly buffer Materials { vec4 material[]; };  // linear colour
+struct Material {
+  vec4 colour;    // linear
+  vec4 emission;  // linear
+};
+layout(std430, binding = 4) readonly buffer Materials { Material material[]; };
 const float kSkyBase = 0.75;
 
 layout(location = 0) out vec4 share;
@@ -26,5 +30,6 @@ void main() {
   vec3 n = triangle[id].xyz;
   if (dot(n, ray) > 0.0) n = -n;
   float ambient = sky.w * (kSkyBase + (1.0 - kSkyBase) * dot(n, sky.xyz));
-  share = vec4(material[floatBitsToUint(triangle[id].w)].rgb * ambient, 1.0);
+  Material m = material[floatBitsToUint(triangle[id].w)];
+  share = vec4(m.emission.rgb + m.colour.rgb * ambient, 1.0);
 }

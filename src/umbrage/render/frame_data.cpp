@@ -7,10 +7,15 @@
 namespace umbrage::render {
 namespace {
 
-std::vector<Vec4f> coloursOf(std::span<const scene::Material> materials) {
-  std::vector<Vec4f> colours;
-  for (const scene::Material& m : materials) colours.emplace_back(Vec3f(m.colour), 1.0f);
-  return colours;
+// Struct Material of the shaders.
+struct MaterialRow {
+  Vec4f colour, emission;
+};
+
+std::vector<MaterialRow> rowsOf(std::span<const scene::Material> materials) {
+  std::vector<MaterialRow> rows;
+  for (const scene::Material& m : materials) rows.push_back({Vec4f(Vec3f(m.colour), 1.0f), Vec4f(Vec3f(m.emission), 0.0f)});
+  return rows;
 }
 
 }  // namespace
@@ -30,8 +35,7 @@ Result<void> upload(FrameData& data, const View& view, const Vec3& origin, const
   if (options != nullptr) {
     shading.sky = Vec4f(Vec3f(options->up), static_cast<float>(options->light.ambient));
     shading.background = Vec4f(Vec3f(options->light.background), 1.0f);
-    const std::vector<Vec4f> colours = coloursOf(options->materials);
-    if (auto done = data.materials.setAll(colours); !done) return done;
+    if (auto done = data.materials.setAll(rowsOf(options->materials)); !done) return done;
   }
   const ViewBlock block = viewBlock(view, origin, Vec4(0.0));
   if (auto done = data.view.setOne(block); !done) return done;

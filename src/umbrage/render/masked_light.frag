@@ -33,7 +33,11 @@ vec3 seenPoint(uint id, vec3 ray) {
   return slope != 0.0 ? ray * (dot(triangle[id].xyz, a) / slope) : a;
 }
 
-layout(std430, binding = 4) readonly buffer Materials { vec4 material[]; };  // linear colour
+struct Material {
+  vec4 colour;    // linear
+  vec4 emission;  // linear
+};
+layout(std430, binding = 4) readonly buffer Materials { Material material[]; };
 
 layout(location = 0) out vec4 share;
 
@@ -45,5 +49,5 @@ void main() {
   vec3 ray = rayCorner.xyz + gl_FragCoord.x * rayX.xyz + gl_FragCoord.y * rayY.xyz;
   vec3 towards = light.xyz - light.w * seenPoint(id, ray);
   float cosine = abs(dot(triangle[id].xyz, normalize(towards)));
-  share = vec4(material[floatBitsToUint(triangle[id].w)].rgb * radiance.rgb * (reaches * cosine), 1.0);
+  share = vec4(material[floatBitsToUint(triangle[id].w)].colour.rgb * radiance.rgb * (reaches * cosine), 1.0);
 }

@@ -116,7 +116,8 @@ TEST_F(Planar, CastersBeyondTheLightOrBelowThePlaneCastNoFalseShadow) {
 
 // Where two shadows lie on each other the picture is as dark as in one: nothing but ambient light.
 TEST_F(Planar, DrawsThePictureThatTheProcessorComposes) {
-  const scene::Scene s = village();
+  scene::Scene s = village();
+  s.materials[0].emission = {0.2, 0.0, 0.1};
   const auto geometry = shadow::makeGeometry(s);
   const auto technique = prepared(geometry);
   const scene::Camera camera = eyes()[0].camera;

@@ -224,7 +224,8 @@ TEST_P(StencilTechniques, SeeWhatIsRightBeforeTheEye) {
 }
 
 TEST_P(StencilTechniques, DrawThePictureThatTheProcessorComposes) {
-  const scene::Scene s = village();
+  scene::Scene s = village();
+  s.materials[0].emission = {0.2, 0.0, 0.1};
   const auto geometry = shadow::makeGeometry(s);
   ASSERT_TRUE(technique_->prepare(geometry));
   const scene::Camera camera = eyes()[0].camera;
