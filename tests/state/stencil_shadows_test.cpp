@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <random>
 
 #include "support/box_scene.hpp"
 #include "umbrage/gl/context.hpp"
@@ -106,6 +107,24 @@ bool isLit(const Convention& c, const Box3& box, const Mat4& projection, const V
   return !(enter < leave);
 }
 
+void bindFramebuffer(GLenum format) {
+  GLuint picture = 0, framebuffer = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &picture);
+  glTextureStorage2D(picture, 1, format, kWidth, kHeight);
+  glCreateFramebuffers(1, &framebuffer);
+  glNamedFramebufferTexture(framebuffer, GL_DEPTH_STENCIL_ATTACHMENT, picture, 0);
+  glNamedFramebufferDrawBuffer(framebuffer, GL_NONE);
+  glNamedFramebufferReadBuffer(framebuffer, GL_NONE);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glViewport(0, 0, kWidth, kHeight);
+}
+
+std::vector<std::uint8_t> readStencil() {
+  std::vector<std::uint8_t> stencil(std::size_t(kWidth) * kHeight);
+  glReadPixels(0, 0, kWidth, kHeight, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, stencil.data());
+  return stencil;
+}
+
 class Conventions : public ::testing::TestWithParam<Convention> {};
 
 TEST_P(Conventions, AreTheHostsOwn) {
@@ -113,15 +132,7 @@ TEST_P(Conventions, AreTheHostsOwn) {
   if (!context) GTEST_SKIP() << "no graphics: " << context.error().text();
   const gl::CurrentContext current(*context);
   const Convention& c = GetParam();
-  GLuint picture = 0, framebuffer = 0;
-  glCreateTextures(GL_TEXTURE_2D, 1, &picture);
-  glTextureStorage2D(picture, 1, c.format, kWidth, kHeight);
-  glCreateFramebuffers(1, &framebuffer);
-  glNamedFramebufferTexture(framebuffer, GL_DEPTH_STENCIL_ATTACHMENT, picture, 0);
-  glNamedFramebufferDrawBuffer(framebuffer, GL_NONE);
-  glNamedFramebufferReadBuffer(framebuffer, GL_NONE);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, kWidth, kHeight);
+  bindFramebuffer(c.format);
   glClipControl(c.origin, c.depthMode);
   glDepthRange(c.rangeNear, c.rangeFar);
 
@@ -135,8 +146,7 @@ TEST_P(Conventions, AreTheHostsOwn) {
     glClearBufferfv(GL_DEPTH, 0, &depth);
     const auto marked = shadows->mark(arrangement.light, {kView, projection, isReversed(c)}, arrangement.options);
     ASSERT_TRUE(marked) << marked.error().text();
-    std::vector<std::uint8_t> stencil(std::size_t(kWidth) * kHeight);
-    glReadPixels(0, 0, kWidth, kHeight, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, stencil.data());
+    const auto stencil = readStencil();
     const Vec4 lamp = scene::homogeneous(arrangement.light, Vec3(0.0));
     const auto lit = [&](double x, double y) { return isLit(c, arrangement.box, projection, lamp, x, y); };
     std::size_t shadowed = 0, wrong = 0;
@@ -153,6 +163,44 @@ TEST_P(Conventions, AreTheHostsOwn) {
     EXPECT_GT(shadowed, 20u);
   }
   EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+// Seen edge-on from its own plane a face has no picture, nor has its cap, which single precision would tilt over half the view. The eye lies in a
+// solid's face and the light far beyond it, so the solid's shadow falls away from all that is seen.
+TEST(EyesInFaces, SeeNothingOfThem) {
+  const auto context = gl::Context::createHeadless();
+  if (!context) GTEST_SKIP() << "no graphics: " << context.error().text();
+  const gl::CurrentContext current(*context);
+  bindFramebuffer(GL_DEPTH32F_STENCIL8);
+  std::mt19937 random(1);
+  const auto between = [&](double low, double high) { return low + (high - low) * (double(random()) / 4294967296.0); };
+  const auto anywhere = [&] { return Vec3(between(-1, 1), between(-1, 1), between(-1, 1)); };
+  // Coordinates that single precision holds, so that the eye lies in the very face that is drawn.
+  const auto onLattice = [](const Vec3& v) { return glm::round(v * 64.0) / 64.0; };
+  const Mat4 projection = glm::perspective(1.2, double(kWidth) / kHeight, 0.1, 100.0);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 eye = onLattice(5.0 * anywhere()), u = onLattice(anywhere()), v = onLattice(anywhere());
+    const Vec3 cross = glm::cross(u, v), n = glm::normalize(cross);
+    if (glm::length(cross) < 0.3) continue;
+    mesh::Mesh solid;
+    for (const Vec2& at : {Vec2(-3, -2.5), Vec2(2, -3), Vec2(1.5, 4)})
+      solid.positions.push_back(eye + at.x * u + at.y * v);
+    solid.positions.push_back(onLattice(eye - 3.0 * n));
+    solid.triangles = {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}};
+    scene::Scene scene;
+    scene.materials.emplace_back();
+    scene.meshes.push_back(std::make_shared<const mesh::Mesh>(std::move(solid)));
+    scene.instances.push_back({.name = "solid"});
+    auto shadows = StencilShadows::make(shadow::buildCasters(scene::flatten(scene)));
+    ASSERT_TRUE(shadows);
+    const Mat4 view = glm::lookAt(eye, eye + glm::normalize(between(-1, 1) * u + between(-1, 1) * v) + 0.45 * n, n);
+    const scene::Light light{scene::PointLight{eye + 20.0 * n + anywhere()}};
+    const float depth = 1.0f;
+    glClearBufferfv(GL_DEPTH, 0, &depth);
+    ASSERT_TRUE(shadows->mark(light, {view, projection, false}, {.counting = Counting::zFail}));
+    const auto stencil = readStencil();
+    EXPECT_EQ(std::count(stencil.begin(), stencil.end(), 0), kWidth * kHeight) << i;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Hosts, Conventions, ::testing::ValuesIn(kConventions),

@@ -22,6 +22,8 @@ struct Member {
   bool byZFail;
   int eyeCount;
   std::vector<IndexRange> sides;  ///< those that are drawn
+  const gl::VertexArray* capVertices;
+  IndexRange caps;
 };
 
 /// Members that are counted together.
@@ -34,7 +36,7 @@ struct Group {
     for (const Member& m : members) {
       plan.eyeCount += m.eyeCount;
       (m.byZFail ? plan.failSides : plan.passSides) |= !m.sides.empty();
-      plan.failCaps |= m.byZFail && m.part->caps.count > 0;
+      plan.failCaps |= m.byZFail && m.caps.count > 0;
     }
     return plan;
   }
@@ -70,7 +72,7 @@ View viewFrom(const PosedCasters& posed, const View& world) {
 std::vector<IndexRange> rangesFor(Draw draw, const Member& m) {
   if (draw == Draw::passSides && !m.byZFail) return m.sides;
   if (draw == Draw::failSides && m.byZFail) return m.sides;
-  if (draw == Draw::failCaps && m.byZFail && m.part->caps.count > 0) return {m.part->caps};
+  if (draw == Draw::failCaps && m.byZFail && m.caps.count > 0) return {m.caps};
   return {};
 }
 
@@ -87,8 +89,8 @@ void drawMembers(gl::HostScope& scope, const PassStep& step, const Group& group,
     pass.uniforms(0, m.place->view);
     pass.storage(0, *m.positions);
     if (step.shader == Shader::finiteVolume) pass.storage(1, m.place->farPoints);
-    for (const IndexRange& range : rangesFor(step.draw, m))
-      pass.drawIndexed(m.volume->vertices, range.first, range.count);
+    const gl::VertexArray& vertices = step.draw == Draw::failCaps ? *m.capVertices : m.volume->vertices;
+    for (const IndexRange& range : rangesFor(step.draw, m)) pass.drawIndexed(vertices, range.first, range.count);
   }
 }
 
@@ -144,7 +146,7 @@ std::vector<IndexRange> seenSides(const shadow::CasterSet& casters, const Volume
 Member memberOf(const PosedCasters& posed, const StoredVolume& volume, const VolumePart& part, const Vec3& eye,
                 Counting counting, std::vector<std::uint8_t>& touched) {
   const shadow::CasterSet& casters = *posed.casters;
-  Member m{&volume, &part, nullptr, nullptr, mirrors(posed), counting == Counting::zFail, 0, {}};
+  Member m{&volume, &part, nullptr, nullptr, mirrors(posed), counting == Counting::zFail, 0, {}, &volume.vertices, part.caps};
   shadow::EyeCount atEye;
   if (counting == Counting::zFail)
     atEye.byZFail = shadow::sidesAtEye(casters, part.silhouette, eye);
@@ -204,9 +206,26 @@ struct Work {
       stats.eyeCount += m.eyeCount;
       members.push_back(std::move(m));
     }
-    if (auto done = endVolumes(posed, seenFrom, eye, touched, places[i], stats); !done)
-      return tl::unexpected(done.error());
+    for (const auto& done : {leaveOutCapsEdgeOn(*posed.casters, eye, places[i], members),
+                             endVolumes(posed, seenFrom, eye, touched, places[i], stats)})
+      if (!done) return tl::unexpected(done.error());
     return members;
+  }
+
+  // The memo's caps are those of any eye. One in a face's plane sees that face's cap edge-on, and single precision would tilt it into view.
+  [[nodiscard]] Result<void> leaveOutCapsEdgeOn(const shadow::CasterSet& casters, const Vec3& eye, PlaceData& place,
+                                                std::vector<Member>& members) const {
+    const auto hasCaps = [](const Member& m) { return m.byZFail && m.caps.count > 0; };
+    if (std::none_of(members.begin(), members.end(), hasCaps) || !shadow::isInAFacesPlane(casters, eye)) return {};
+    std::vector<std::uint32_t> indices;
+    for (Member& m : members) {
+      if (!hasCaps(m)) continue;
+      const auto seen = shadow::extrude(casters, m.part->silhouette, {.endsAnywhere = endsVolumes(), .eye = eye}).caps;
+      m.capVertices = &place.caps;
+      m.caps = {indices.size(), seen.size()};
+      indices.insert(indices.end(), seen.begin(), seen.end());
+    }
+    return place.capIndices.setAll(indices);
   }
 };
 

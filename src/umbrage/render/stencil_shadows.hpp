@@ -28,6 +28,8 @@ struct StencilShadowOptions {
 /// What a caster set of one call has on the graphics card besides its volume.
 struct PlaceData {
   gl::Buffer view, farPoints;
+  gl::Buffer capIndices;  ///< of the caps that this eye sees, where it sees others edge-on
+  gl::VertexArray caps{capIndices};
 };
 
 /// Exact shadows inside somebody else's renderer. The host draws its scene's depth into its own framebuffer, calls mark() for a
