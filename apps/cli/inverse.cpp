@@ -116,11 +116,7 @@ Result<Outcome> inverseVolume(const InverseVolume& given, const Console& console
   options.cell = o.cell.value_or(0.0), options.most = o.most.value_or(kMost);
   if (!o.rule.grid) o.rule.grid = kGrid / scene->metresPerUnit;
   std::optional<double> reach;
-  if (rule->receivers == rules::ReceiverKind::site) {
-    const auto found = rules::shadowReach(options.most, *rule, request);
-    if (!found) return tl::unexpected(found.error());
-    reach = *found;
-  }
+  if (rule->receivers == rules::ReceiverKind::site) reach = rules::shadowReach(options.most, *rule, request);
   const auto grounds = groundsOf(o.rule, *rule, *scene, request, reach);
   if (!grounds) return tl::unexpected(grounds.error());
   options.base = grounds->ground;

@@ -62,18 +62,17 @@ Result<std::vector<DayNews>> newsOf(const VerifyOptions& o, const scene::Scene& 
   const rules::Rule& rule = verdict.rule;
   for (const auto& date : rules::newsDates(verdict, request)) {
     const auto times = rules::countingOn(rule, rule.requirements.front().anyOf.front(), date, request);
-    if (!times) return tl::unexpected(times.error());
     DayNews day{date, {}};
     if (grounds.areas.empty()) {
       study::ReceiverSet points;
       for (const rules::Target& t : grounds.targets.targets) points.receivers.push_back(t.receiver);
-      auto news = rules::newOnPoints(scene, baseline, request.place, points, *times, rule.sun, console.progress());
+      auto news = rules::newOnPoints(scene, baseline, request.place, points, times, rule.sun, console.progress());
       if (!news) return tl::unexpected(news.error());
       day.news.areas = std::move(*news);
     } else {
       rules::NetNewOptions options;
-      options.height = grounds.height, options.times = *times, options.areas = grounds.areas, options.sun = rule.sun;
-      options.moments = momentsOf(o, request, date, *times);
+      options.height = grounds.height, options.times = times, options.areas = grounds.areas, options.sun = rule.sun;
+      options.moments = momentsOf(o, request, date, times);
       auto news = rules::netNew(scene, baseline, request.place, options, console.progress());
       if (!news) return tl::unexpected(news.error());
       day.news = std::move(*news);
@@ -147,9 +146,10 @@ Run addVerify(CLI::App& app) {
            options->sensitivity, parseSensitivity, {.group = "Rule"});
   addValues(app, "--at", "HH:MM", "Moments whose new shadow is drawn (repeatable; default: the full hours)",
             options->at, sun::parseTime, {.group = "Place and time"});
-  addWord(app, "-o,--output", "OUT.{html,csv,geojson,dxf,svg}",
-          "The evidence: a page with all of it (and table, map and animation beside it), receivers as a table, or a map",
-          options->output);
+  addWord(
+      app, "-o,--output", "OUT.{html,csv,geojson,dxf,svg}",
+      "The evidence: a page with all of it (and table, map and animation beside it), receivers as a table, or a map",
+      options->output);
   addFlag(app, "--json", "The verdict as JSON", options->json);
   return [options](const Console& console) { return run(*options, console); };
 }

@@ -69,12 +69,11 @@ Result<DayPictures> decidingDay(const VerdictFiles& files, const VerdictReport& 
   const auto date = dayOf(report);
   const rules::Measure& measure = report.verdict.rule.requirements.front().anyOf.front();
   const auto counts = rules::countingOn(report.verdict.rule, measure, date, report.request);
-  if (!counts) return tl::unexpected(counts.error());
-  if (counts->empty()) return DayPictures{};
+  if (counts.empty()) return DayPictures{};
   const auto clock = [&](sun::Instant instant) {
     return sun::clockAt(report.request.zone, report.request.place, instant).clock;
   };
-  const auto first = clock(counts->front().from), last = clock(counts->back().to);
+  const auto first = clock(counts.front().from), last = clock(counts.back().to);
   const std::chrono::milliseconds step = kStep;
   study::Period period{report.request.place, report.request.zone, date};
   period.from = first.date == date ? (first.time + step - std::chrono::milliseconds(1)) / step * step

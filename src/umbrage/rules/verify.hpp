@@ -79,22 +79,20 @@ struct Verdict {
 /// Holds a scene against a rule. Times are exact (study::ExactHours), nothing is sampled in time; in space the targets are the samples.
 /// 1. The verdict passes where all findings do.
 /// 2. Requirements without receivers in their band have no finding; a rule without any finding is an error.
-/// Errors: usage (a rule of the other hemisphere, a baseline missing, a least altitude missing, no targets, times that a clock
-/// leaves out), cancelled.
+/// Errors: usage (a rule of the other hemisphere, a baseline missing, a least altitude missing, no targets), cancelled.
 [[nodiscard]] Result<Verdict> verify(const scene::Scene& scene, const scene::Scene* baseline, const Rule& rule,
                                      const TargetSet& targets, const VerifyRequest& request,
                                      const ProgressSink& progress = {});
 
-/// When the sun counts for a measure of a rule on a day: its window, the sun up and high enough. Empty where never. Errors: usage (the clock).
-[[nodiscard]] Result<std::vector<study::TimeSpan>> countingOn(const Rule& rule, const Measure& measure,
-                                                              std::chrono::year_month_day date,
-                                                              const VerifyRequest& request);
+/// When the sun counts for a measure of a rule on a day: its window, the sun up and high enough. Empty where never.
+[[nodiscard]] std::vector<study::TimeSpan> countingOn(const Rule& rule, const Measure& measure,
+                                                      std::chrono::year_month_day date, const VerifyRequest& request);
 
 /// The dates of a measure, ascending.
 [[nodiscard]] std::vector<std::chrono::year_month_day> datesOf(const Measure& measure, const VerifyRequest& request);
 
 /// How far the shadow of something `above` metres over a plane can last as long as the rule's shortest threshold, in metres. REQUIRES: measures of
-/// shadow. Errors: usage (the clock).
-[[nodiscard]] Result<double> shadowReach(double above, const Rule& rule, const VerifyRequest& request);
+/// shadow.
+[[nodiscard]] double shadowReach(double above, const Rule& rule, const VerifyRequest& request);
 
 }  // namespace umbrage::rules

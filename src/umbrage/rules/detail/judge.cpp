@@ -163,9 +163,8 @@ class Panel {
         return reportProgress(progress, (double(i) + fraction) / double(dates.size()), what);
       };
       const auto day = dayOf(m, dates[i], conventions_);
-      if (!day) return tl::unexpected(day.error());
-      if (!*day) continue;
-      if (const auto done = fn(**day, part); !done) return done;
+      if (!day) continue;
+      if (const auto done = fn(*day, part); !done) return done;
     }
     return {};
   }
@@ -203,24 +202,23 @@ class Panel {
                                                            const SunOf* before, const ProgressSink& progress) const {
     std::vector<ReceiverResult> results;
     const auto day = dayOf(m, date, conventions_);
-    if (!day) return tl::unexpected(day.error());
-    if (!*day) {
+    if (!day) {
       for (const std::size_t target : chosen_) results.push_back(resultOf(m, target, date, {}));
       return results;
     }
-    const auto lit = now(receivers_, (*day)->course, progress);
+    const auto lit = now(receivers_, day->course, progress);
     if (!lit) return tl::unexpected(lit.error());
     std::optional<study::SunHours> former;
     if (m.statistic == Statistic::newShadow) {
       UMBRAGE_CHECK(before != nullptr, "new shadow needs a baseline");
-      auto found = (*before)(receivers_, (*day)->course, progress);
+      auto found = (*before)(receivers_, day->course, progress);
       if (!found) return tl::unexpected(found.error());
       former = std::move(*found);
     }
     for (std::size_t i = 0; i < chosen_.size(); ++i)
-      results.push_back(resultOf(
-          m, chosen_[i], date,
-          countedSpans(m, (*day)->counting, lit->lit(i), former ? former->lit(i) : std::span<const TimeSpan>())));
+      results.push_back(
+          resultOf(m, chosen_[i], date,
+                   countedSpans(m, day->counting, lit->lit(i), former ? former->lit(i) : std::span<const TimeSpan>())));
     return results;
   }
 
@@ -283,11 +281,10 @@ Conventions conventionsOf(const Rule& rule, const VerifyRequest& request) {
           request.days ? request.days : makeSunDays()};
 }
 
-Result<std::shared_ptr<const Day>> dayOf(const Measure& measure, year_month_day date, const Conventions& conventions) {
+std::shared_ptr<const Day> dayOf(const Measure& measure, year_month_day date, const Conventions& conventions) {
   const auto window = windowOn(measure.window, date, conventions.calendar, conventions.clockSwitched);
-  if (!window) return tl::unexpected(window.error());
-  if (!*window) return std::shared_ptr<const Day>();
-  const TimeSpan span = **window;
+  if (!window) return nullptr;
+  const TimeSpan span = *window;
   const SunDays::Key key{span.from,
                          span.to,
                          measure.leastAltitude ? measure.leastAltitude->radians() : 0.0,

@@ -25,9 +25,9 @@ struct Conventions {
 };
 [[nodiscard]] Conventions conventionsOf(const Rule& rule, const VerifyRequest& request);
 
-/// Nothing where no time of the day counts. Errors: usage (the clock).
-[[nodiscard]] Result<std::shared_ptr<const Day>> dayOf(const Measure& measure, std::chrono::year_month_day date,
-                                                       const Conventions& conventions);
+/// Nothing where no time of the day counts.
+[[nodiscard]] std::shared_ptr<const Day> dayOf(const Measure& measure, std::chrono::year_month_day date,
+                                               const Conventions& conventions);
 
 /// When receivers are lit, of some scene: what study::ExactHours::at answers.
 using SunOf = std::function<Result<study::SunHours>(std::span<const study::Receiver>, const study::SunCourse&,
