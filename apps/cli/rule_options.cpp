@@ -51,7 +51,7 @@ Result<Grounds> aroundSite(const RuleOptions& o, const rules::Rule& rule, const 
   if (!reach) {
     const Box3 box = scene::bounds(scene, true);
     const double above = box.empty() ? 0.0 : study::mapHeight(box.max, scene.up) - g.height;
-    reach = rules::shadowReach(above * scene.metresPerUnit, rule, request);
+    reach = rules::shadowReach(above * scene.metresPerUnit, rule, request) + rules::overhang(scene, g.areas.front());
   }
   const double step = o.grid ? *o.grid * scene.metresPerUnit : kGrid;
   auto targets = rules::siteTargets(g.areas.front(), rule, scene, {g.height, kAlong * step, step, *reach});

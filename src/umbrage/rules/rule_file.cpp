@@ -265,6 +265,9 @@ Rule ruleOf(JsonReader& in) {
   for (const Requirement& r : rule.requirements) {
     if (r.band && rule.receivers != ReceiverKind::site)
       in.wrong("requirements", "metres_from_site belongs to receivers of kind site");
+    const bool ofAll = r.mostNew || r.share < 1.0, ends = r.band && r.band->to;
+    if (rule.receivers == ReceiverKind::site && ofAll && !ends)
+      in.wrong("requirements", "a share of what lies around a site wants an end: metres_from_site with to");
     for (const Measure& m : r.anyOf)
       if (m.leastAltitude && !rule.altitudeByCountry.empty())
         in.wrong("least_sun_altitude_by_country", "a measure has an altitude of its own");

@@ -58,6 +58,8 @@ TEST(RuleFile, contradictionsAndSlipsAreNamed) {
       {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"metres_from_site\":{\"from\":5}"),
        "receivers of kind site"},
       {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"least_run_minutes\":\"5\""), "least_run_minutes"},
+      {with("\"kind\":\"points\"},\n  \"requirements\":[{", "\"kind\":\"site\"},\n  \"requirements\":[{\"share\":0.5,"),
+       "wants an end"},
       {with("\"kind\":\"points\"", "\"kind\":\"windows\""), "one of points, areas, site"},
       {with("\"kind\":\"points\"", "\"kind\":\"points\",\"height\":2"), "points lie where they are"},
       {with("\"name\":\"mine\",", ""), "name: is missing"},

@@ -280,27 +280,4 @@ std::vector<std::chrono::year_month_day> datesOf(const Measure& measure, const V
   return detail::datesOf(measure.days, {request.place, request.zone, request.date});
 }
 
-double shadowReach(double above, const Rule& rule, const VerifyRequest& request) {
-  double reach = 0.0;
-  const Conventions conventions = detail::conventionsOf(rule, request);
-  for (const Requirement& r : rule.requirements)
-    for (const Measure& m : r.anyOf)
-      for (const auto& date : detail::datesOf(m.days, conventions.calendar)) {
-        const auto day = detail::dayOf(m, date, conventions);
-        if (!day) continue;
-        // A point so far off is in shadow only while the sun is lower; looked at every minute, one minute short.
-        std::vector<double> lengths;
-        for (const study::TimeSpan& span : day->counting)
-          for (auto t = span.from; t < span.to; t += std::chrono::minutes(1)) {
-            const Vec3 s = day->course.towards(t);
-            lengths.push_back(std::hypot(s.x, s.y) / std::max(s.z, 1e-6));
-          }
-        std::sort(lengths.rbegin(), lengths.rend());
-        const auto minutes =
-            static_cast<std::size_t>(std::max<std::int64_t>(2, m.threshold / std::chrono::minutes(1)) - 2);
-        if (minutes < lengths.size()) reach = std::max(reach, lengths[minutes]);
-      }
-  return std::max(0.0, above) * reach;
-}
-
 }  // namespace umbrage::rules

@@ -91,8 +91,8 @@ struct Verdict {
 /// The dates of a measure, ascending.
 [[nodiscard]] std::vector<std::chrono::year_month_day> datesOf(const Measure& measure, const VerifyRequest& request);
 
-/// How far the shadow of something `above` metres over a plane can last as long as the rule's shortest threshold, in metres. REQUIRES: measures of
-/// shadow.
+/// How far, in metres, the shadow of what rises `above` metres over a plane can turn what a rule says of a receiver on it: beyond, its shadow is
+/// that long for too short a time, whatever its shape. Ends with the rule's bands; where a share of the receivers is asked for, all of the band.
 [[nodiscard]] double shadowReach(double above, const Rule& rule, const VerifyRequest& request);
 
 }  // namespace umbrage::rules

@@ -47,16 +47,23 @@ milliseconds valueOf(const Measure& m, const Spans& spans) {
   return m.statistic == Statistic::longestSun ? longest(spans) : total(spans);
 }
 
+bool passes(const Measure& m, milliseconds value) {
+  switch (m.comparison) {
+    case Comparison::atLeast: return value >= m.threshold;
+    case Comparison::moreThan: return value > m.threshold;
+    case Comparison::atMost: return value <= m.threshold;
+    case Comparison::lessThan: return value < m.threshold;
+  }
+  return false;
+}
+
 ReceiverResult resultOf(const Measure& m, std::size_t target, year_month_day date, Spans spans) {
   ReceiverResult r;
   r.target = target, r.date = date;
   const milliseconds value = valueOf(m, spans);
   r.value = hoursOf(value), r.threshold = hoursOf(m.threshold);
   r.margin = wantsMore(m) ? r.value - r.threshold : r.threshold - r.value;
-  r.passes = m.comparison == Comparison::atLeast    ? value >= m.threshold
-             : m.comparison == Comparison::moreThan ? value > m.threshold
-             : m.comparison == Comparison::atMost   ? value <= m.threshold
-                                                    : value < m.threshold;
+  r.passes = passes(m, value);
   r.spans = std::move(spans);
   return r;
 }
@@ -267,6 +274,11 @@ Result<void> weighShares(const Requirement& requirement, const Panel& panel, con
 SunOf sunOf(std::shared_ptr<const study::ExactHours> hours) {
   return [hours = std::move(hours)](std::span<const study::Receiver> receivers, const study::SunCourse& course,
                                     const ProgressSink& progress) { return hours->at(receivers, course, progress); };
+}
+
+bool holds(const Measure& m, std::span<const TimeSpan> counting, std::span<const TimeSpan> lit,
+           std::span<const TimeSpan> litBefore) {
+  return passes(m, valueOf(m, countedSpans(m, counting, lit, litBefore)));
 }
 
 bool allPass(const std::vector<Finding>& findings) {

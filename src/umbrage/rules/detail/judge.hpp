@@ -39,6 +39,10 @@ struct Lights {
 };
 [[nodiscard]] SunOf sunOf(std::shared_ptr<const study::ExactHours> hours);
 
+/// Does a measure hold at a receiver on one day? `lit`, `litBefore`: by what stands now, and in the baseline.
+[[nodiscard]] bool holds(const Measure& measure, std::span<const study::TimeSpan> counting,
+                         std::span<const study::TimeSpan> lit, std::span<const study::TimeSpan> litBefore);
+
 /// Holds all requirements against all groups.
 [[nodiscard]] Result<std::vector<Finding>> judge(const Rule& rule, const Lights& lights, const TargetSet& targets,
                                                  const Conventions& conventions, const ProgressSink& progress);
