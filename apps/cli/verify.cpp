@@ -7,6 +7,7 @@
 #include "outputs.hpp"
 #include "rule_options.hpp"
 #include "verify_files.hpp"
+#include "verify_words.hpp"
 
 namespace umbrage::cli {
 namespace {
@@ -61,7 +62,7 @@ Result<std::vector<DayNews>> newsOf(const VerifyOptions& o, const scene::Scene& 
   std::vector<DayNews> all;
   const rules::Rule& rule = verdict.rule;
   for (const auto& date : rules::newsDates(verdict, request)) {
-    const auto times = rules::countingOn(rule, rule.requirements.front().anyOf.front(), date, request);
+    const auto times = rules::countingOn(rule, decidingMeasure(verdict), date, request);
     DayNews day{date, {}};
     if (grounds.areas.empty()) {
       study::ReceiverSet points;

@@ -10,6 +10,7 @@
 #include "outputs.hpp"
 #include "umbrage/base/file.hpp"
 #include "verify_page.hpp"
+#include "verify_words.hpp"
 
 namespace umbrage::cli {
 namespace {
@@ -24,16 +25,19 @@ std::string ledgerText(const std::vector<study::LedgerLine>& ledger) {
   return text;
 }
 
-VerdictReport withWorstDay(VerdictReport report) {
+// The day that brings most new shadow. REQUIRES: there is one.
+const DayNews& worstDay(const std::vector<DayNews>& news) {
   const auto hours = [](const DayNews& day) {
     double sum = 0.0;
     for (const rules::AreaNews& area : day.news.areas) sum += area.areaHours;
     return sum;
   };
-  if (report.news.size() < 2) return report;
-  const auto worst = std::max_element(report.news.begin(), report.news.end(),
-                                      [&](const DayNews& a, const DayNews& b) { return hours(a) < hours(b); });
-  report.news = {*worst};
+  return *std::max_element(news.begin(), news.end(),
+                           [&](const DayNews& a, const DayNews& b) { return hours(a) < hours(b); });
+}
+
+VerdictReport withWorstDay(VerdictReport report) {
+  if (report.news.size() > 1) report.news = {DayNews(worstDay(report.news))};
   return report;
 }
 
@@ -57,18 +61,16 @@ std::vector<Output> tableOutputs(const std::string& path, const VerdictReport& r
           {path, [&report](const std::string& p) { return writeFile(p, verdictCsv(report)); }}};
 }
 
-/// The day that decides the first finding, or that is asked for.
+/// The day that decides the verdict. Where all days are added up, the one that brings most of those that are told of.
 std::chrono::year_month_day dayOf(const VerdictReport& report) {
-  for (const rules::Finding& finding : report.verdict.findings)
-    if (finding.deciding) return finding.receivers[*finding.deciding].date;
-  return report.news.empty() ? report.request.date : report.news.front().date;
+  if (const auto date = rules::decidingOf(report.verdict).date) return *date;
+  return report.news.empty() ? report.request.date : worstDay(report.news).date;
 }
 
 /// The day's pictures at whole half hours of its clock, from the first to the last moment that counts. None where the sun does not count.
 Result<DayPictures> decidingDay(const VerdictFiles& files, const VerdictReport& report, const Console& console) {
   const auto date = dayOf(report);
-  const rules::Measure& measure = report.verdict.rule.requirements.front().anyOf.front();
-  const auto counts = rules::countingOn(report.verdict.rule, measure, date, report.request);
+  const auto counts = rules::countingOn(report.verdict.rule, decidingMeasure(report.verdict), date, report.request);
   if (counts.empty()) return DayPictures{};
   const auto clock = [&](sun::Instant instant) {
     return sun::clockAt(report.request.zone, report.request.place, instant).clock;

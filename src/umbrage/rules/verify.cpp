@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "umbrage/base/check.hpp"
 #include "umbrage/rules/detail/judge.hpp"
 #include "umbrage/study/georeference.hpp"
 #include "umbrage/study/ledger.hpp"
@@ -268,6 +269,20 @@ Result<Verdict> verify(const scene::Scene& scene, const scene::Scene* baseline, 
   verdict.warnings = warningsOf(rule, baseline != nullptr, request, conventions);
   verdict.ledger = ledgerOf(scene, baseline, rule, targets, request, conventions);
   return verdict;
+}
+
+Deciding decidingOf(const Verdict& verdict) {
+  UMBRAGE_CHECK(!verdict.findings.empty(), "a verdict has findings");
+  constexpr double kDayHours = 24.0;
+  const auto marginOf = [](const Finding& f) { return f.newShare ? kDayHours * f.margin : f.margin; };
+  const auto first = std::min_element(
+      verdict.findings.begin(), verdict.findings.end(),
+      [&](const Finding& a, const Finding& b) { return a.passes != b.passes ? !a.passes : marginOf(a) < marginOf(b); });
+  Deciding deciding{static_cast<std::size_t>(first - verdict.findings.begin()), 0, std::nullopt};
+  if (!first->deciding) return deciding;
+  const ReceiverResult& receiver = first->receivers[*first->deciding];
+  deciding.measure = receiver.measure, deciding.date = receiver.date;
+  return deciding;
 }
 
 std::vector<study::TimeSpan> countingOn(const Rule& rule, const Measure& measure, std::chrono::year_month_day date,

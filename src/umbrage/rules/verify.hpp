@@ -84,6 +84,16 @@ struct Verdict {
                                      const TargetSet& targets, const VerifyRequest& request,
                                      const ProgressSink& progress = {});
 
+/// What a verdict hangs on.
+struct Deciding {
+  std::size_t finding = 0;                          ///< of Verdict::findings
+  std::size_t measure = 0;                          ///< of its requirement's anyOf
+  std::optional<std::chrono::year_month_day> date;  ///< nothing where all days are added up (mostNew)
+};
+/// The finding with the least to spare, those that fail before those that pass; a share of new shadow counts as that share of a day. Its measure and
+/// day are those of the receiver that decides. REQUIRES: the verdict has findings.
+[[nodiscard]] Deciding decidingOf(const Verdict& verdict);
+
 /// When the sun counts for a measure of a rule on a day: its window, the sun up and high enough. Empty where never.
 [[nodiscard]] std::vector<study::TimeSpan> countingOn(const Rule& rule, const Measure& measure,
                                                       std::chrono::year_month_day date, const VerifyRequest& request);

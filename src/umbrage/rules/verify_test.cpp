@@ -110,6 +110,39 @@ TEST(Verify, aMomentThatClocksLeaveOutIsNoFault) {
   EXPECT_THAT(v->warnings[0], HasSubstr("clocks were put forward from 02:00 to 03:00"));
 }
 
+// Of two days one has more sun, and one is nearer to what it was before: it is the latter that suits.
+TEST(Verify, theBestDayIsThatOfTheWholeRule) {
+  const sun::Place london = place(51.5, -0.1);
+  Rule rule = *findRule("bre209");
+  Requirement& r = rule.requirements[0];
+  r.anyOf[0].days = {Days::Kind::dates, {std::chrono::January / 10, std::chrono::June / 21}, {}};
+  r.anyOf[0].threshold = 4h;
+  r.share = 0.9, r.former = 0.95;
+  const auto garden = areaTargets({{"garden", rectangle({-10, 0}, {10, 24})}}, sceneOf({}), 2.0, 0.0);
+  ASSERT_TRUE(garden);
+  // A wall that keeps the garden dark in winter, and a roof that is new and shades some of it in summer.
+  const std::vector<Block> old = {{{-400, -6, 0}, {400, -2, 12}}};
+  std::vector<Block> now = old;
+  now.push_back({{-14, -1, 1}, {14, 6, 1.5}, "roof"});
+  const scene::Scene before = sceneOf(old), after = sceneOf(now);
+  const auto on = [&](std::vector<std::chrono::month_day> dates, bool best) {
+    Rule one = rule;
+    one.requirements[0].anyOf[0].days.dates = std::move(dates), one.requirements[0].anyOf[0].days.best = best;
+    const auto v = verify(after, &before, one, *garden, {london, kSolar, kDay, Sensitivity::never});
+    EXPECT_TRUE(v) << (v ? "" : v.error().text());
+    return v->findings.at(0);
+  };
+  const Finding winter = on({std::chrono::January / 10}, false), summer = on({std::chrono::June / 21}, false);
+  ASSERT_GT(summer.share, winter.share);
+  ASSERT_FALSE(summer.passes) << summer.share << ' ' << *summer.formerShare;
+  ASSERT_TRUE(winter.passes) << winter.share << ' ' << *winter.formerShare;
+  const Finding best = on({std::chrono::January / 10, std::chrono::June / 21}, true);
+  EXPECT_TRUE(best.passes);
+  EXPECT_EQ(best.receivers.at(*best.deciding).date, std::chrono::year(2026) / 1 / 10);
+  EXPECT_EQ(best.formerShare, winter.formerShare);
+  EXPECT_EQ(best.share, winter.share);
+}
+
 TEST(Verify, nothingButSkyAndNoSunAtAll) {
   const scene::Scene empty = sceneOf({});
   const auto open = verify(empty, nullptr, *findRule("china-dahan-2"), window(), {kBeijing, kSolar, kDay});
