@@ -114,6 +114,53 @@ TEST_F(Verify, SharesOfNewShadowAreInTheTableToo) {
   EXPECT_NEAR(std::stod(csv.substr(before + 1)), share, 1e-9);
 }
 
+// A spreadsheet runs what begins like a formula.
+TEST_F(Verify, NamesInTablesAreNoFormulas) {
+  const auto area = write("area.geojson", R"json({"type":"Feature","properties":{"name":"=HYPERLINK(\"http://a\")"},
+      "geometry":{"type":"Polygon","coordinates":[[[-4,2],[4,2],[4,8],[-4,2]]]},"crs":null})json");
+  Json rule = Json::parse(umbrage({"verify", "--print-preset", "bre209"}).out);
+  for (const auto& [name, cell] : {std::pair("-2+3", "\"'-2+3\""), std::pair(" @SUM(A1)", "\"' @SUM(A1)\""),
+                                   std::pair("+1", "\"'+1\""), std::pair("2 h, or more", "\"2 h, or more\"")}) {
+    rule["requirements"][0]["name"] = name;
+    const Ran ran = run({"verify", writeBox("box.off", 20), "--preset", write("mine.json", rule.dump()), "--areas",
+                         area, "-o", file("e.csv")},
+                        kNewYork);
+    EXPECT_THAT(ran.code, testing::AnyOf(0, 1)) << ran.err;
+    const std::string csv = read("e.csv"), row = csv.substr(csv.find('\n') + 1);
+    EXPECT_THAT(row, StartsWith("\"'=HYPERLINK(\"\"http://a\"\")\"," + std::string(cell) + ",")) << name;
+    EXPECT_THAT(row, Not(HasSubstr("'-1"))) << "numbers stay";
+  }
+}
+
+// The layer of what fails ends at the area's border, also where cells reach beyond it.
+TEST_F(Verify, WhatFailsOnTheMapIsAPartOfItsArea) {
+  const auto area = write("area.geojson", R"({"type":"FeatureCollection","crs":null,"features":[
+      {"type":"Feature","properties":{"name":"dark"},"geometry":{"type":"Polygon","coordinates":[[[-4,2],[4.3,2],[0.7,5.9],[-4,2]]]}},
+      {"type":"Feature","properties":{"name":"dark"},"geometry":{"type":"Polygon","coordinates":[[[-30,-1],[0,-40],[30,-1],[-30,-1]]]}}]})");
+  const Ran ran = run({"verify", writeBox("box.off", 40), "--baseline", writeBox("low.off", 3), "--preset", "nyc-ceqr",
+                       "--areas", area, "--grid", "1.7", "-o", file("e.geojson"), "--json"},
+                      kNewYork);
+  EXPECT_EQ(ran.code, 1) << ran.err;
+  const Json findings = Json::parse(ran.out).at("findings"), map = Json::parse(read("e.geojson"));
+  std::vector<double> areas, failing;
+  for (const Json& feature : map.at("features")) {
+    const Json& p = feature.at("properties");
+    if (p.at("layer") == "areas") {
+      areas.push_back(p.at("area_m2"));
+      EXPECT_EQ(p.at(findings.at(0).at("requirement").get<std::string>()), "fails");
+    }
+    if (p.at("layer") == "fails") failing.push_back(p.at("area_m2"));
+  }
+  ASSERT_EQ(areas.size(), 2u);
+  ASSERT_EQ(failing.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double share = 1.0 - findings.at(i).at("share").get<double>();
+    EXPECT_LE(failing[i], areas[i] + 1e-6);
+    EXPECT_NEAR(failing[i] / areas[i], share, share == 1.0 ? 1e-6 : 0.1) << i;
+  }
+  EXPECT_LT(failing[1], 0.99 * areas[1]);
+}
+
 // Where the sun counts at no time, a limit on shadow would hold of itself; a polygon elsewhere has no shadow at all.
 TEST_F(Verify, NothingHoldsOfItself) {
   const auto box = writeBox("box.off", 20), before = writeBox("before.off", 5);

@@ -45,7 +45,8 @@ struct ReceiverResult {
 /// 1. passes: the part `share` of the receivers passes and is at least `wanted`; with Requirement::mostNew: `newShare` is at most that.
 struct Finding {
   std::size_t requirement = 0;  ///< of Rule::requirements
-  std::string group;
+  std::size_t groupIndex = 0;   ///< of TargetSet::groups
+  std::string group;            ///< its name; several may have one
   bool passes = false;
   double share = 0.0, wanted = 1.0;   ///< of the receivers, by area
   std::optional<double> formerShare;  ///< that passes in the baseline

@@ -404,7 +404,7 @@ Result<std::vector<Finding>> judge(const Rule& rule, const Lights& lights, const
       const Panel panel(requirement, targets, groups[g], conventions);
       if (panel.empty()) continue;
       Finding finding;
-      finding.requirement = r, finding.group = targets.groups[g];
+      finding.requirement = r, finding.groupIndex = g, finding.group = targets.groups[g];
       if (const auto weighed = weighAll(requirement, panel, lights, part, finding); !weighed)
         return tl::unexpected(weighed.error());
       findings.push_back(std::move(finding));
