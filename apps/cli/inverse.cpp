@@ -18,7 +18,7 @@ constexpr double kGrid = 4.0;
 constexpr double kMost = 100.0;
 
 bool isMap(const std::string& path) {
-  return path.ends_with(".geojson") || path.ends_with(".dxf") || path.ends_with(".svg");
+  return hasExtension(path, ".geojson") || hasExtension(path, ".dxf") || hasExtension(path, ".svg");
 }
 
 Result<void> check(const InverseVolume& o) {
@@ -103,6 +103,7 @@ Result<Outcome> inverseVolume(const InverseVolume& given, const Console& console
   if (const auto fine = check(o); !fine) return tl::unexpected(fine.error());
   const auto rule = ruleOf(o.rule);
   if (!rule) return tl::unexpected(rule.error());
+  if (const auto fine = checkReceivers(o.rule, *rule, true); !fine) return tl::unexpected(fine.error());
   const auto scene = loadScene(o.scene, console);
   if (!scene) return tl::unexpected(scene.error());
   const auto baseline = baselineOf(o.rule, o.scene, *scene, console);

@@ -95,6 +95,7 @@ Result<Outcome> run(const VerifyOptions& o, const Console& console) {
   if (const auto fine = check(o); !fine) return tl::unexpected(fine.error());
   const auto rule = ruleOf(o.rule);
   if (!rule) return tl::unexpected(rule.error());
+  if (const auto fine = checkReceivers(o.rule, *rule, false); !fine) return tl::unexpected(fine.error());
   auto read = loadScene(o.scene, console);
   if (!read) return tl::unexpected(read.error());
   if (const auto casts = checkCasts(*read, o.scene); !casts) return tl::unexpected(casts.error());

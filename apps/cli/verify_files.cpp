@@ -120,16 +120,16 @@ Result<void> writePage(const VerdictFiles& files, const VerdictReport& report, c
 Result<std::vector<std::string>> verdictFiles(const std::string& output) {
   if (auto known = checkExtension("-o", output, {".csv", ".geojson", ".dxf", ".svg", std::string(kPage)}); !known)
     return tl::unexpected(known.error());
-  if (output.ends_with(".csv")) return std::vector{output, output + ".ledger.txt"};
-  if (!output.ends_with(kPage)) return std::vector{output};
+  if (hasExtension(output, ".csv")) return std::vector{output, output + ".ledger.txt"};
+  if (!hasExtension(output, kPage)) return std::vector{output};
   const std::string stem = stemOf(output);
   return std::vector{output, stem + ".csv", stem + ".csv.ledger.txt", stem + ".geojson", stem + ".gif"};
 }
 
 Result<void> writeVerdict(const VerdictFiles& files, const VerdictReport& report, const Console& console) {
-  if (files.output.ends_with(".csv")) return writeOutputs(tableOutputs(files.output, report));
-  if (files.output.ends_with(kPage)) return writePage(files, report, console);
-  const auto map = verdictMap(files, report, files.output.ends_with(".geojson"));
+  if (hasExtension(files.output, ".csv")) return writeOutputs(tableOutputs(files.output, report));
+  if (hasExtension(files.output, kPage)) return writePage(files, report, console);
+  const auto map = verdictMap(files, report, hasExtension(files.output, ".geojson"));
   if (!map) return tl::unexpected(map.error());
   MapOptions options;
   options.output = files.output;

@@ -190,6 +190,21 @@ TEST_F(Verify, NearItsThresholdItTellsOfOtherConventions) {
   EXPECT_THAT(far.out, Not(HasSubstr("instead of")));
 }
 
+TEST_F(Verify, ExtensionsMayBeInCapitals) {
+  for (const char* name : {"e.CSV", "e.Svg", "e.GEOJSON"}) {
+    const Ran ran =
+        run({"verify", writeBox(), "--preset", "china-dahan-2", "--points", points(), "-o", file(name)}, kBeijing);
+    EXPECT_EQ(ran.code, 0) << name << ran.err;
+    EXPECT_TRUE(exists(name));
+  }
+  EXPECT_TRUE(exists("e.CSV.ledger.txt"));
+  const Ran page =
+      run({"verify", writeBox(), "--preset", "china-dahan-2", "--points", points(), "-o", file("page.HTML")}, kBeijing);
+  EXPECT_EQ(page.code, 0) << page.err;
+  EXPECT_THAT(read("page.HTML"), HasSubstr("</html>"));
+  EXPECT_TRUE(exists("page.csv") && exists("page.gif"));
+}
+
 TEST_F(Verify, ARuleOfOnesOwn) {
   const auto box = writeBox();
   Json rule = Json::parse(umbrage({"verify", "--print-preset", "china-dahan-2"}).out);
@@ -216,6 +231,8 @@ TEST_F(Verify, RefusalsSayWhy) {
     EXPECT_EQ(ran.out, "") << says;
     EXPECT_THAT(ran.err, HasSubstr(says));
   };
+  const auto around =
+      write("site.geojson", R"({"type":"Polygon","crs":null,"coordinates":[[[-3,-3],[3,-3],[3,3],[-3,3],[-3,-3]]]})");
   const std::vector<std::string> sydney = {"--lat",  "-33.9",      "--lon", "151",
                                            "--date", "2026-01-01", "--tz",  "Australia/Sydney"};
   refused({"--preset", "china-dahan-9", "--points", points()}, kBeijing, 2, "china-dahan-3");
@@ -227,6 +244,18 @@ TEST_F(Verify, RefusalsSayWhy) {
   refused({"--preset", "korea"}, kBeijing, 2, "--points");
   refused({"--preset", "korea", "--areas", park()}, kBeijing, 2, "not at --areas");
   refused({"--preset", "bre209", "--points", points()}, kBeijing, 2, "not at --points");
+  refused({"--preset", "bre209", "--areas", park(), "--windows", "*"}, kBeijing, 2,
+          "--areas AREAS.geojson; not at --windows");
+  refused({"--preset", "korea", "--points", points(), "--site", park()}, kBeijing, 2, "--windows PART; not at --site");
+  refused({"--preset", "bre209", "--areas", park(), "--site", park()}, kBeijing, 2,
+          "--areas AREAS.geojson; not at --site");
+  refused({"--preset", "japan-3-2", "--site", park(), "--areas", park()}, kBeijing, 2,
+          "--site SITE.geojson; not at --areas");
+  refused({"--preset", "japan-3-2", "--site", park(), "--points", points()}, kBeijing, 2, "not at --points");
+  // Too many points are refused before there is any.
+  refused({"--preset", "bre209", "--areas", park(), "--grid", "1e-6"}, kBeijing, 2, "take larger steps (--grid)");
+  refused({"--preset", "japan-3-2", "--site", around, "--grid", "1e-6"}, kBeijing, 2, "take larger steps (--grid)");
+  refused({"--preset", "korea", "--windows", "*", "--grid", "1e-6"}, kBeijing, 2, "take larger steps");
   refused({"--preset", "vancouver", "--areas", park()}, kNewYork, 2, "--baseline");
   refused({"--preset", "en17037-high", "--points", points()}, kBeijing, 2, "--country");
   refused({"--preset", "en17037-high", "--country", "XY", "--points", points()}, kBeijing, 2, "DE");
@@ -238,7 +267,7 @@ TEST_F(Verify, RefusalsSayWhy) {
   refused({"--preset", "bre209", "--areas", degrees}, kBeijing, 3, "reference system");
   const auto other = write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   refused({"--preset", "nyc-ceqr", "--areas", park(), "--baseline", other}, kNewYork, 3, "one frame");
-  EXPECT_THAT(files(), ElementsAre("box.off", "d.geojson", "other.obj", "p.csv", "park.geojson"));
+  EXPECT_THAT(files(), ElementsAre("box.off", "d.geojson", "other.obj", "p.csv", "park.geojson", "site.geojson"));
 }
 
 TEST_F(Verify, JapansSite) {
