@@ -62,7 +62,7 @@ Result<void> check(const HoursOptions& o) {
     return fail(ErrorCode::usage, "--plane, --on and --faces exclude each other");
   if (o.year && o.until) return fail(ErrorCode::usage, "--year and --until exclude each other");
   std::vector<std::string> outputs{o.output};
-  if (o.output.ends_with(".csv")) outputs.push_back(o.output + ".ledger.txt");
+  if (hasExtension(o.output, ".csv")) outputs.push_back(o.output + ".ledger.txt");
   if (auto open = checkOutputs(outputs, o.scene.file); !open) return open;
   return checkOutputs(outputs, o.points);
 }

@@ -18,7 +18,7 @@ constexpr double kGrid = 4.0;
 constexpr double kMost = 100.0;
 
 bool isMap(const std::string& path) {
-  return path.ends_with(".geojson") || path.ends_with(".dxf") || path.ends_with(".svg");
+  return hasExtension(path, ".geojson") || hasExtension(path, ".dxf") || hasExtension(path, ".svg");
 }
 
 Result<void> check(const InverseVolume& o) {
@@ -103,6 +103,7 @@ Result<Outcome> inverseVolume(const InverseVolume& given, const Console& console
   if (const auto fine = check(o); !fine) return tl::unexpected(fine.error());
   const auto rule = ruleOf(o.rule);
   if (!rule) return tl::unexpected(rule.error());
+  if (const auto fine = checkReceivers(o.rule, *rule, true); !fine) return tl::unexpected(fine.error());
   const auto scene = loadScene(o.scene, console);
   if (!scene) return tl::unexpected(scene.error());
   const auto baseline = baselineOf(o.rule, o.scene, *scene, console);
@@ -116,11 +117,7 @@ Result<Outcome> inverseVolume(const InverseVolume& given, const Console& console
   options.cell = o.cell.value_or(0.0), options.most = o.most.value_or(kMost);
   if (!o.rule.grid) o.rule.grid = kGrid / scene->metresPerUnit;
   std::optional<double> reach;
-  if (rule->receivers == rules::ReceiverKind::site) {
-    const auto found = rules::shadowReach(options.most, *rule, request);
-    if (!found) return tl::unexpected(found.error());
-    reach = *found;
-  }
+  if (rule->receivers == rules::ReceiverKind::site) reach = rules::shadowReach(options.most, *rule, request);
   const auto grounds = groundsOf(o.rule, *rule, *scene, request, reach);
   if (!grounds) return tl::unexpected(grounds.error());
   options.base = grounds->ground;

@@ -113,6 +113,19 @@ int main(const std::vector<std::string>& words) {
   return run(*named(), Console(quiet, verbose, words));
 }
 
+// What makes a command's work smaller.
+std::string memoryRemedy(const std::vector<std::string>& words) {
+  const auto is = [&](std::initializer_list<std::string_view> names) {
+    return std::any_of(words.begin(), words.end(),
+                       [&](const auto& word) { return std::find(names.begin(), names.end(), word) != names.end(); });
+  };
+  if (is({"verify", "envelope", "hours"})) return "a larger --grid or a smaller scene";
+  if (is({"terrain"})) return "a smaller --tile";
+  if (is({"isochrones"})) return "a larger --tolerance or a smaller scene";
+  if (is({"render", "radiosity", "compare", "gallery", "profile"})) return "a smaller --size or a smaller scene";
+  return "a smaller scene";
+}
+
 }  // namespace
 }  // namespace umbrage::cli
 
@@ -122,10 +135,11 @@ int main(int count, char** words) {
   // Neither is a limit on the size of files.
   std::signal(SIGXFSZ, SIG_IGN);
   using namespace umbrage;
+  const std::vector<std::string> all(words + 1, words + count);
   try {
-    return cli::main(std::vector<std::string>(words + 1, words + count));
+    return cli::main(all);
   } catch (const std::bad_alloc&) {
-    cli::Console().error({ErrorCode::input, "memory is exhausted; try a smaller --size or a smaller scene", {}});
+    cli::Console().error({ErrorCode::input, "memory is exhausted; try " + cli::memoryRemedy(all), {}});
   } catch (const std::exception& problem) {
     cli::Console().error({ErrorCode::input, std::string("unexpected: ") + problem.what(), {}});
   }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -41,18 +43,39 @@ std::string absolute(const std::string& path) {
   return std::filesystem::weakly_canonical(path, ignored).string();
 }
 
-// Letters count alike in either case.
-bool endsWith(const std::string& path, const std::string& extension) {
-  const auto alike = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
-  return path.size() >= extension.size() && std::equal(extension.rbegin(), extension.rend(), path.rbegin(), alike);
+// The libraries of materials that an .obj names; they lie beside it.
+std::vector<std::filesystem::path> materialsNamedBy(const std::string& scene) {
+  std::vector<std::filesystem::path> named;
+  if (!hasExtension(scene, ".obj")) return named;
+  std::ifstream file(scene);
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string word;
+    if (!(words >> word) || word != "mtllib") continue;
+    // Several names, or one with blanks in it.
+    std::string rest;
+    std::getline(words >> std::ws, rest);
+    while (!rest.empty() && std::isspace(static_cast<unsigned char>(rest.back())) != 0) rest.pop_back();
+    const auto folder = std::filesystem::path(scene).parent_path();
+    named.push_back(folder / rest);
+    for (std::istringstream names(rest); names >> word;) named.push_back(folder / word);
+  }
+  return named;
 }
 
-// An .obj brings an .mtl of its name. One that is there without its .obj is somebody's.
-Result<void> checkMaterials(const std::string& path) {
-  if (!endsWith(path, ".obj")) return {};
+// An .obj brings an .mtl of its name. One that is there without its .obj is somebody's, and so is one that the scene is read with.
+Result<void> checkMaterials(const std::string& path, const std::string& input) {
+  if (!hasExtension(path, ".obj")) return {};
   const auto materials = std::filesystem::path(path).replace_extension(".mtl");
   std::error_code ignored;
-  if (std::filesystem::exists(path, ignored) || !std::filesystem::exists(materials, ignored)) return {};
+  if (!std::filesystem::exists(materials, ignored)) return {};
+  for (const auto& named : materialsNamedBy(input))
+    if (sameFile(named.string(), materials.string()))
+      return fail(ErrorCode::usage,
+                  fmt::format("would overwrite {}, which {} is read with; give the output another name",
+                              materials.filename().string(), std::filesystem::path(input).filename().string()),
+                  path);
+  if (std::filesystem::exists(path, ignored)) return {};
   return fail(ErrorCode::usage,
               fmt::format("would overwrite {}, which belongs to something else; give the output another name",
                           materials.filename().string()),
@@ -61,13 +84,18 @@ Result<void> checkMaterials(const std::string& path) {
 
 }  // namespace
 
+bool hasExtension(const std::string& path, std::string_view extension) {
+  const auto alike = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+  return path.size() >= extension.size() && std::equal(extension.rbegin(), extension.rend(), path.rbegin(), alike);
+}
+
 Result<void> checkOutputs(const std::vector<std::string>& paths, const std::string& input) {
   std::vector<std::string> seen;
   for (const auto& path : paths) {
     if (sameFile(path, input))
       return fail(ErrorCode::usage, "is what the command reads; give the output another name", path);
     if (const auto writable = checkWritable(path); !writable) return writable;
-    if (const auto free = checkMaterials(path); !free) return free;
+    if (const auto free = checkMaterials(path, input); !free) return free;
     const auto place = absolute(path);
     if (std::find(seen.begin(), seen.end(), place) != seen.end())
       return fail(ErrorCode::usage, "is named for two outputs; give each its own name", path);
@@ -79,7 +107,7 @@ Result<void> checkOutputs(const std::vector<std::string>& paths, const std::stri
 Result<void> checkExtension(const std::string& option, const std::string& path,
                             const std::vector<std::string>& extensions) {
   const bool known = std::any_of(extensions.begin(), extensions.end(),
-                                 [&](const std::string& extension) { return endsWith(path, extension); });
+                                 [&](const std::string& extension) { return hasExtension(path, extension); });
   if (known) return {};
   return fail(ErrorCode::usage, fmt::format("{}: '{}' must end in {}", option, path, fmt::join(extensions, " or ")));
 }

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "umbrage/base/error.hpp"
@@ -17,6 +18,9 @@ struct Output {
 /// Refuses outputs that cannot be written before any work is done: two of one name, a folder, a device, a file in a
 /// folder that is missing or closed to writing; and the file that is read, under whatever name.
 [[nodiscard]] Result<void> checkOutputs(const std::vector<std::string>& paths, const std::string& input = {});
+
+/// Does the name end in it (".png")? Letters count alike in either case.
+[[nodiscard]] bool hasExtension(const std::string& path, std::string_view extension);
 
 /// Refuses a name that does not end in one of `extensions`, for example {".png"}. Errors: usage, with the option's
 /// name.

@@ -119,7 +119,7 @@ std::vector<Output> outputs(const RadiosityOptions& options, const Lit& lit) {
   std::vector<Output> list;
   for (const std::string& path : options.outputs)
     list.push_back({path, [&options, &lit](const std::string& to) {
-                      return to.ends_with(".png") ? writePicture(options, lit, to)
+                      return hasExtension(to, ".png") ? writePicture(options, lit, to)
                                                   : io::writeColoured(colouredMesh(lit), lit.view.scene, to);
                     }});
   if (!options.stats.empty())

@@ -52,9 +52,7 @@ Result<Grounds> aroundSite(const RuleOptions& o, const rules::Rule& rule, const 
   if (!reach) {
     const Box3 box = scene::bounds(scene, true);
     const double above = box.empty() ? 0.0 : study::mapHeight(box.max, scene.up) - g.height;
-    const auto found = rules::shadowReach(above * scene.metresPerUnit, rule, request);
-    if (!found) return tl::unexpected(found.error());
-    reach = *found;
+    reach = rules::shadowReach(above * scene.metresPerUnit, rule, request) + rules::overhang(scene, g.areas.front());
   }
   const double step = o.grid ? *o.grid * scene.metresPerUnit : kGrid;
   auto targets = rules::siteTargets(g.areas.front(), rule, scene, {g.height, kAlong * step, step, *reach});
@@ -70,6 +68,22 @@ Result<void> checkRule(const RuleOptions& o) {
     return fail(ErrorCode::usage, "--points and --windows exclude each other");
   if (!o.country.empty() && o.leastAltitude)
     return fail(ErrorCode::usage, "--country and --min-altitude exclude each other");
+  return {};
+}
+
+Result<void> checkReceivers(const RuleOptions& o, const rules::Rule& rule, bool ownSite) {
+  using Kind = rules::ReceiverKind;
+  const Kind kind = rule.receivers;
+  const char* wants = kind == Kind::points  ? "points: --points P.csv or --windows PART"
+                      : kind == Kind::areas ? "open spaces: --areas AREAS.geojson"
+                                            : "lines around a site: --site SITE.geojson";
+  const std::pair<const char*, bool> useless[] = {
+      {"--points", !o.points.empty() && kind != Kind::points},
+      {"--windows", !o.windows.empty() && kind != Kind::points},
+      {"--areas", !o.areas.empty() && kind != Kind::areas},
+      {"--site", !o.site.empty() && !ownSite && (kind == Kind::points || (kind == Kind::areas && !o.areas.empty()))}};
+  for (const auto& [option, given] : useless)
+    if (given) return fail(ErrorCode::usage, fmt::format("{} looks at {}; not at {}", rule.name, wants, option));
   return {};
 }
 
@@ -112,16 +126,11 @@ Result<Grounds> groundsOf(const RuleOptions& o, const rules::Rule& rule, const s
   g.ground = o.plane.value_or(box.empty() ? 0.0 : study::mapHeight(box.min, scene.up));
   g.height = g.ground + o.height.value_or(rule.height) / scene.metresPerUnit;
   if (rule.receivers == rules::ReceiverKind::points) {
-    if (!o.areas.empty()) return fail(ErrorCode::usage, fmt::format("{} looks at points, not at --areas", rule.name));
     auto targets = pointsOf(o, rule, scene);
     if (!targets) return tl::unexpected(targets.error());
     g.targets = std::move(*targets);
     return g;
   }
-  if (!o.points.empty() || !o.windows.empty())
-    return fail(ErrorCode::usage,
-                fmt::format("{} looks at {}, not at --points or --windows", rule.name,
-                            rule.receivers == rules::ReceiverKind::areas ? "areas" : "lines around a site"));
   if (rule.receivers == rules::ReceiverKind::site) return aroundSite(o, rule, scene, request, reach, std::move(g));
   auto areas = areasOf(o, rule, scene);
   if (!areas) return tl::unexpected(areas.error());

@@ -18,6 +18,9 @@ void addRuleOptions(CLI::App& app, RuleOptions& options, bool required);
 /// Contradictions among them. Errors: usage.
 [[nodiscard]] Result<void> checkRule(const RuleOptions& options);
 
+/// Where the rule does not look. `ownSite`: the command has a use of its own for --site. Errors: usage, with what the rule wants.
+[[nodiscard]] Result<void> checkReceivers(const RuleOptions& options, const rules::Rule& rule, bool ownSite);
+
 /// The rule with the altitude or the country that was asked for.
 [[nodiscard]] Result<rules::Rule> ruleOf(const RuleOptions& options);
 

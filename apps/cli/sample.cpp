@@ -20,7 +20,22 @@ std::string listText() {
   return text;
 }
 
-Result<Outcome> run(const SampleOptions& options) {
+// In the frame of the file: those that are read with --light are in the scene's own.
+std::string lightText(const scene::Light& light, scene::UpAxis from, scene::UpAxis to) {
+  const auto* point = std::get_if<scene::PointLight>(&light.shape);
+  if (point == nullptr) return fmt::format("'{}'", light.name);
+  const Vec3 p = from == to ? point->position : Vec3(point->position.x, point->position.z, -point->position.y);
+  return fmt::format("'{}' (--light point:{:g},{:g},{:g},#ffffff,{:g})", light.name, p.x, p.y, p.z, light.intensity);
+}
+
+void warnOfLights(const scene::Scene& scene, const std::string& name, const std::string& path, const Console& console) {
+  const auto up = hasExtension(path, ".json") ? scene::UpAxis::z : scene::UpAxis::y;
+  for (const scene::Light& light : scene.lights)
+    console.warn(fmt::format("{}: its light {} is not in the file; sample:{} has it", path,
+                             lightText(light, scene.up, up), name));
+}
+
+Result<Outcome> run(const SampleOptions& options, const Console& console) {
   if (options.list) return Outcome{listText(), 0};
   if (options.name.empty()) return fail(ErrorCode::usage, "which sample? See: umbrage sample --list");
   if (options.output.empty()) return fail(ErrorCode::usage, "-o FILE is missing: .glb, .iv, .city.json or .obj");
@@ -30,6 +45,7 @@ Result<Outcome> run(const SampleOptions& options) {
   const auto written =
       writeOutputs({{options.output, [&](const std::string& path) { return io::writeScene(*scene, path); }}});
   if (!written) return tl::unexpected(written.error());
+  warnOfLights(*scene, options.name, options.output, console);
   return Outcome{fmt::format("{}  {} triangles\n", options.output, scene::triangleCount(*scene)), 0};
 }
 
@@ -40,7 +56,7 @@ Run addSample(CLI::App& app) {
   addWord(app, "NAME", "", "Which sample", options->name);
   addWord(app, "-o,--output", "FILE", "Where to write it: .glb, .iv, .city.json or .obj", options->output);
   addFlag(app, "--list", "The names of the samples", options->list);
-  return [options](const Console&) { return run(*options); };
+  return [options](const Console& console) { return run(*options, console); };
 }
 
 }  // namespace umbrage::cli

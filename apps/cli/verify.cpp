@@ -7,6 +7,7 @@
 #include "outputs.hpp"
 #include "rule_options.hpp"
 #include "verify_files.hpp"
+#include "verify_words.hpp"
 
 namespace umbrage::cli {
 namespace {
@@ -61,19 +62,18 @@ Result<std::vector<DayNews>> newsOf(const VerifyOptions& o, const scene::Scene& 
   std::vector<DayNews> all;
   const rules::Rule& rule = verdict.rule;
   for (const auto& date : rules::newsDates(verdict, request)) {
-    const auto times = rules::countingOn(rule, rule.requirements.front().anyOf.front(), date, request);
-    if (!times) return tl::unexpected(times.error());
+    const auto times = rules::countingOn(rule, decidingMeasure(verdict), date, request);
     DayNews day{date, {}};
     if (grounds.areas.empty()) {
       study::ReceiverSet points;
       for (const rules::Target& t : grounds.targets.targets) points.receivers.push_back(t.receiver);
-      auto news = rules::newOnPoints(scene, baseline, request.place, points, *times, rule.sun, console.progress());
+      auto news = rules::newOnPoints(scene, baseline, request.place, points, times, rule.sun, console.progress());
       if (!news) return tl::unexpected(news.error());
       day.news.areas = std::move(*news);
     } else {
       rules::NetNewOptions options;
-      options.height = grounds.height, options.times = *times, options.areas = grounds.areas, options.sun = rule.sun;
-      options.moments = momentsOf(o, request, date, *times);
+      options.height = grounds.height, options.times = times, options.areas = grounds.areas, options.sun = rule.sun;
+      options.moments = momentsOf(o, request, date, times);
       auto news = rules::netNew(scene, baseline, request.place, options, console.progress());
       if (!news) return tl::unexpected(news.error());
       day.news = std::move(*news);
@@ -95,6 +95,7 @@ Result<Outcome> run(const VerifyOptions& o, const Console& console) {
   if (const auto fine = check(o); !fine) return tl::unexpected(fine.error());
   const auto rule = ruleOf(o.rule);
   if (!rule) return tl::unexpected(rule.error());
+  if (const auto fine = checkReceivers(o.rule, *rule, false); !fine) return tl::unexpected(fine.error());
   auto read = loadScene(o.scene, console);
   if (!read) return tl::unexpected(read.error());
   if (const auto casts = checkCasts(*read, o.scene); !casts) return tl::unexpected(casts.error());
@@ -147,9 +148,10 @@ Run addVerify(CLI::App& app) {
            options->sensitivity, parseSensitivity, {.group = "Rule"});
   addValues(app, "--at", "HH:MM", "Moments whose new shadow is drawn (repeatable; default: the full hours)",
             options->at, sun::parseTime, {.group = "Place and time"});
-  addWord(app, "-o,--output", "OUT.{html,csv,geojson,dxf,svg}",
-          "The evidence: a page with all of it (and table, map and animation beside it), receivers as a table, or a map",
-          options->output);
+  addWord(
+      app, "-o,--output", "OUT.{html,csv,geojson,dxf,svg}",
+      "The evidence: a page with all of it (and table, map and animation beside it), receivers as a table, or a map",
+      options->output);
   addFlag(app, "--json", "The verdict as JSON", options->json);
   return [options](const Console& console) { return run(*options, console); };
 }

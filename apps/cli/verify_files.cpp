@@ -10,6 +10,7 @@
 #include "outputs.hpp"
 #include "umbrage/base/file.hpp"
 #include "verify_page.hpp"
+#include "verify_words.hpp"
 
 namespace umbrage::cli {
 namespace {
@@ -24,16 +25,19 @@ std::string ledgerText(const std::vector<study::LedgerLine>& ledger) {
   return text;
 }
 
-VerdictReport withWorstDay(VerdictReport report) {
+// The day that brings most new shadow. REQUIRES: there is one.
+const DayNews& worstDay(const std::vector<DayNews>& news) {
   const auto hours = [](const DayNews& day) {
     double sum = 0.0;
     for (const rules::AreaNews& area : day.news.areas) sum += area.areaHours;
     return sum;
   };
-  if (report.news.size() < 2) return report;
-  const auto worst = std::max_element(report.news.begin(), report.news.end(),
-                                      [&](const DayNews& a, const DayNews& b) { return hours(a) < hours(b); });
-  report.news = {*worst};
+  return *std::max_element(news.begin(), news.end(),
+                           [&](const DayNews& a, const DayNews& b) { return hours(a) < hours(b); });
+}
+
+VerdictReport withWorstDay(VerdictReport report) {
+  if (report.news.size() > 1) report.news = {DayNews(worstDay(report.news))};
   return report;
 }
 
@@ -57,24 +61,21 @@ std::vector<Output> tableOutputs(const std::string& path, const VerdictReport& r
           {path, [&report](const std::string& p) { return writeFile(p, verdictCsv(report)); }}};
 }
 
-/// The day that decides the first finding, or that is asked for.
+/// The day that decides the verdict. Where all days are added up, the one that brings most of those that are told of.
 std::chrono::year_month_day dayOf(const VerdictReport& report) {
-  for (const rules::Finding& finding : report.verdict.findings)
-    if (finding.deciding) return finding.receivers[*finding.deciding].date;
-  return report.news.empty() ? report.request.date : report.news.front().date;
+  if (const auto date = rules::decidingOf(report.verdict).date) return *date;
+  return report.news.empty() ? report.request.date : worstDay(report.news).date;
 }
 
 /// The day's pictures at whole half hours of its clock, from the first to the last moment that counts. None where the sun does not count.
 Result<DayPictures> decidingDay(const VerdictFiles& files, const VerdictReport& report, const Console& console) {
   const auto date = dayOf(report);
-  const rules::Measure& measure = report.verdict.rule.requirements.front().anyOf.front();
-  const auto counts = rules::countingOn(report.verdict.rule, measure, date, report.request);
-  if (!counts) return tl::unexpected(counts.error());
-  if (counts->empty()) return DayPictures{};
+  const auto counts = rules::countingOn(report.verdict.rule, decidingMeasure(report.verdict), date, report.request);
+  if (counts.empty()) return DayPictures{};
   const auto clock = [&](sun::Instant instant) {
     return sun::clockAt(report.request.zone, report.request.place, instant).clock;
   };
-  const auto first = clock(counts->front().from), last = clock(counts->back().to);
+  const auto first = clock(counts.front().from), last = clock(counts.back().to);
   const std::chrono::milliseconds step = kStep;
   study::Period period{report.request.place, report.request.zone, date};
   period.from = first.date == date ? (first.time + step - std::chrono::milliseconds(1)) / step * step
@@ -119,16 +120,16 @@ Result<void> writePage(const VerdictFiles& files, const VerdictReport& report, c
 Result<std::vector<std::string>> verdictFiles(const std::string& output) {
   if (auto known = checkExtension("-o", output, {".csv", ".geojson", ".dxf", ".svg", std::string(kPage)}); !known)
     return tl::unexpected(known.error());
-  if (output.ends_with(".csv")) return std::vector{output, output + ".ledger.txt"};
-  if (!output.ends_with(kPage)) return std::vector{output};
+  if (hasExtension(output, ".csv")) return std::vector{output, output + ".ledger.txt"};
+  if (!hasExtension(output, kPage)) return std::vector{output};
   const std::string stem = stemOf(output);
   return std::vector{output, stem + ".csv", stem + ".csv.ledger.txt", stem + ".geojson", stem + ".gif"};
 }
 
 Result<void> writeVerdict(const VerdictFiles& files, const VerdictReport& report, const Console& console) {
-  if (files.output.ends_with(".csv")) return writeOutputs(tableOutputs(files.output, report));
-  if (files.output.ends_with(kPage)) return writePage(files, report, console);
-  const auto map = verdictMap(files, report, files.output.ends_with(".geojson"));
+  if (hasExtension(files.output, ".csv")) return writeOutputs(tableOutputs(files.output, report));
+  if (hasExtension(files.output, kPage)) return writePage(files, report, console);
+  const auto map = verdictMap(files, report, hasExtension(files.output, ".geojson"));
   if (!map) return tl::unexpected(map.error());
   MapOptions options;
   options.output = files.output;

@@ -8,6 +8,7 @@
 #include "console.hpp"
 #include "umbrage/outline/combine.hpp"
 #include "umbrage/report/colours.hpp"
+#include "umbrage/rules/cells.hpp"
 #include "umbrage/study/georeference.hpp"
 #include "verify_words.hpp"
 
@@ -21,6 +22,7 @@ using rules::Requirement;
 using rules::Verdict;
 
 constexpr std::size_t kMostNamed = 10;  // receivers that fail, in the text
+constexpr double kRoundness = 1e-4;     // of the distance of a band around a site: what rounding corners costs
 constexpr double kMarker = 0.25;        // metres: half the side of the square that shows a point on the map
 
 const char* passText(bool passes) { return passes ? "passes" : "fails"; }
@@ -177,23 +179,12 @@ outline::Region square(const Vec2& centre, double half) {
   return region;
 }
 
-void addFailing(report::VectorMap& map, const VerdictReport& r, const Finding& f, const scene::Scene& scene) {
-  const bool grid = r.targets.step > 0.0;
-  const double half = grid ? 0.5 * r.targets.step : kMarker / scene.metresPerUnit;
-  std::vector<outline::Region> cells;
+void addPoints(report::VectorMap& map, const VerdictReport& r, const Finding& f, const scene::Scene& scene) {
   for (const ReceiverResult& result : f.receivers) {
-    if (result.passes && grid) continue;
-    const bool line = grid && r.targets.targets[result.target].weight == 0.0;
-    const Vec2 at = study::mapPoint(placeOf(r, result), scene.up);
-    outline::Region cell = square(at, line ? kMarker / scene.metresPerUnit : half);
-    if (grid) {
-      cells.push_back(std::move(cell));
-      continue;
-    }
     const Measure& m = requirementOf(r, f).anyOf[result.measure];
     report::MapFeature feature{
         addLayer(map, std::string("points that ") + (result.passes ? "pass" : "fail"), result.passes ? 0.2 : 0.9, true),
-        std::move(cell),
+        square(study::mapPoint(placeOf(r, result), scene.up), kMarker / scene.metresPerUnit),
         {}};
     feature.properties = {{"requirement", requirementOf(r, f).name}, {"hours", result.value},
                           {"of", std::string(quantity(m))},          {"threshold_hours", result.threshold},
@@ -201,8 +192,46 @@ void addFailing(report::VectorMap& map, const VerdictReport& r, const Finding& f
                           {"times", spansText(r, result.spans)}};
     map.features.push_back(std::move(feature));
   }
-  if (cells.empty()) return;
-  report::MapFeature feature{addLayer(map, "fails", 0.9, true), outline::together(cells), {}};
+}
+
+// The part of an area, or of a band around a site, whose receivers fail.
+outline::Region failingPart(const VerdictReport& r, const Finding& f, const std::vector<rules::CellMiddle>& cells,
+                            double metresPerUnit) {
+  const outline::Region& area = r.areas.at(f.groupIndex).region;
+  if (r.verdict.rule.receivers != rules::ReceiverKind::site) return rules::cellsWithin(area, cells, r.targets.step);
+  const rules::Band band = requirementOf(r, f).band.value_or(rules::Band{});
+  const auto around = [&](double metres) {
+    if (metres <= 0.0) return area;
+    const double distance = metres / metresPerUnit;
+    return outline::grown(area, distance, kRoundness * distance);
+  };
+  const outline::Region part = outline::without(rules::cellsOf(cells, r.targets.step), around(band.from));
+  return band.to ? outline::common(part, around(*band.to)) : part;
+}
+
+// Those on lines around a site have no area.
+void addFailingLines(report::VectorMap& map, const VerdictReport& r, const Finding& f,
+                     const std::vector<outline::Region>& markers) {
+  if (markers.empty()) return;
+  report::MapFeature feature{addLayer(map, "fails", 0.9, true), outline::together(markers), {}};
+  feature.properties = {
+      {"requirement", requirementOf(r, f).name}, {"group", f.group}, {"points_on_lines", double(markers.size())}};
+  map.features.push_back(std::move(feature));
+}
+
+void addFailing(report::VectorMap& map, const VerdictReport& r, const Finding& f, const scene::Scene& scene) {
+  std::vector<rules::CellMiddle> cells;
+  std::vector<outline::Region> markers;
+  for (const ReceiverResult& result : f.receivers) {
+    const Vec2 at = study::mapPoint(placeOf(r, result), scene.up);
+    const bool onLine = r.targets.targets[result.target].weight == 0.0;
+    if (!onLine) cells.push_back({at, !result.passes});
+    if (onLine && !result.passes) markers.push_back(square(at, kMarker / scene.metresPerUnit));
+  }
+  addFailingLines(map, r, f, markers);
+  outline::Region part = failingPart(r, f, cells, map.metresPerUnit);
+  if (part.polygons.empty()) return;
+  report::MapFeature feature{addLayer(map, "fails", 0.9, true), std::move(part), {}};
   feature.properties = {{"requirement", requirementOf(r, f).name},
                         {"group", f.group},
                         {"area_m2", feature.region.area * map.metresPerUnit * map.metresPerUnit}};
@@ -253,25 +282,30 @@ Json verdictJson(const VerdictReport& r) {
   return json;
 }
 
+std::string csvText(const std::string& text) {
+  // What spreadsheets take for the beginning of a formula, also behind blanks, is told to be text.
+  const auto first = text.find_first_not_of(" \t\r\n");
+  const bool formula = first != text.npos && std::string_view("=+-@").find(text[first]) != std::string_view::npos;
+  std::string out = formula ? "\"'" : "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
 std::string verdictCsv(const VerdictReport& r) {
-  const auto quoted = [](const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
-  };
   std::string text =
       "group,requirement,x,y,z,nx,ny,nz,weight,from_site,passes,hours,threshold,margin,date,intervals,new_"
       "share,at_most\n";
   for (const Finding& f : r.verdict.findings) {
     // What is asked of shares is no matter of single receivers.
     if (f.newShare)
-      text += fmt::format("{},{},,,,,,,,,{},,,,,,{:.10g},{:.10g}\n", quoted(f.group), quoted(requirementOf(r, f).name),
-                          f.passes ? 1 : 0, *f.newShare, *requirementOf(r, f).mostNew);
+      text +=
+          fmt::format("{},{},,,,,,,,,{},,,,,,{:.10g},{:.10g}\n", csvText(f.group), csvText(requirementOf(r, f).name),
+                      f.passes ? 1 : 0, *f.newShare, *requirementOf(r, f).mostNew);
     for (const ReceiverResult& result : f.receivers) {
       const rules::Target& t = r.targets.targets[result.target];
       const Vec3 &p = t.receiver.position, &n = t.receiver.normal;
       text += fmt::format("{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.4f},{:.4f},{:.4f},{},{},,\n",
-                          quoted(f.group), quoted(requirementOf(r, f).name), p.x, p.y, p.z, n.x, n.y, n.z, t.weight,
+                          csvText(f.group), csvText(requirementOf(r, f).name), p.x, p.y, p.z, n.x, n.y, n.z, t.weight,
                           t.fromSite, result.passes ? 1 : 0, result.value, result.threshold, result.margin,
                           sun::dateText(result.date), spansText(r, result.spans));
     }
@@ -280,16 +314,23 @@ std::string verdictCsv(const VerdictReport& r) {
 }
 
 void addVerdict(report::VectorMap& map, const VerdictReport& r, const scene::Scene& scene) {
-  for (const rules::Area& area : r.areas) {
-    report::MapFeature feature{
-        addLayer(map, r.targets.targets.front().fromSite > 0.0 ? "site" : "areas", 0.0, true, 0.25), area.region, {}};
+  const bool site = r.verdict.rule.receivers == rules::ReceiverKind::site;
+  std::vector<std::vector<const Finding*>> findings(r.areas.size());
+  for (const Finding& f : r.verdict.findings)
+    if (!r.areas.empty()) findings[f.groupIndex].push_back(&f);
+  for (std::size_t i = 0; i < r.areas.size(); ++i) {
+    const rules::Area& area = r.areas[i];
+    report::MapFeature feature{addLayer(map, site ? "site" : "areas", 0.0, true, 0.25), area.region, {}};
     feature.properties = {{"name", area.name}, {"area_m2", area.region.area * map.metresPerUnit * map.metresPerUnit}};
-    for (const Finding& f : r.verdict.findings)
-      if (f.group == area.name)
-        feature.properties.emplace_back(requirementOf(r, f).name, std::string(passText(f.passes)));
+    for (const Finding* f : findings[i])
+      feature.properties.emplace_back(requirementOf(r, *f).name, std::string(passText(f->passes)));
     map.features.push_back(std::move(feature));
   }
-  for (const Finding& f : r.verdict.findings) addFailing(map, r, f, scene);
+  for (const Finding& f : r.verdict.findings)
+    if (r.targets.step > 0.0)
+      addFailing(map, r, f, scene);
+    else
+      addPoints(map, r, f, scene);
   for (const DayNews& day : r.news) addMoments(map, r, day);
 }
 

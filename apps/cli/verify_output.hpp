@@ -28,6 +28,8 @@ struct VerdictReport {
 
 [[nodiscard]] std::string verdictText(const VerdictReport& report);
 [[nodiscard]] Json verdictJson(const VerdictReport& report);
+/// A name as a cell of a CSV: in quotes, and with an apostrophe before what a spreadsheet would run as a formula (= + - @).
+[[nodiscard]] std::string csvText(const std::string& text);
 /// A row for each receiver and requirement.
 [[nodiscard]] std::string verdictCsv(const VerdictReport& report);
 /// The areas, the receivers that fail, and the new shadow of the moments. `map` has title, ledger and buildings.

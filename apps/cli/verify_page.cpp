@@ -127,8 +127,7 @@ Result<report::DayChart> chartOf(const VerdictReport& r, const Finding& f) {
   if (order.size() < f.receivers.size())
     chart.note += fmt::format(" The {} of {} receivers with the least to spare.", order.size(), f.receivers.size());
   const auto counting = rules::countingOn(r.verdict.rule, m, deciding.date, r.request);
-  if (!counting) return tl::unexpected(counting.error());
-  if (oneDay) chart.counts = partsOf(r, deciding.date, *counting);
+  if (oneDay) chart.counts = partsOf(r, deciding.date, counting);
   for (const std::size_t i : order) chart.bars.push_back(barOf(r, f.receivers[i], !oneDay));
   chart.axis = axisOf(chart);
   if (!oneDay) chart.counts = {chart.axis};

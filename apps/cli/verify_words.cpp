@@ -49,6 +49,10 @@ const char* comparison(const rules::Measure& m) {
 const rules::Requirement& requirementOf(const VerdictReport& r, const rules::Finding& f) {
   return r.verdict.rule.requirements[f.requirement];
 }
+const rules::Measure& decidingMeasure(const rules::Verdict& verdict) {
+  const rules::Deciding deciding = rules::decidingOf(verdict);
+  return verdict.rule.requirements[verdict.findings[deciding.finding].requirement].anyOf[deciding.measure];
+}
 const Vec3& placeOf(const VerdictReport& r, const rules::ReceiverResult& result) {
   return r.targets.targets[result.target].receiver.position;
 }

@@ -19,6 +19,8 @@ namespace umbrage::cli {
 [[nodiscard]] const char* comparison(const rules::Measure& measure);
 
 [[nodiscard]] const rules::Requirement& requirementOf(const VerdictReport& report, const rules::Finding& finding);
+/// That of rules::decidingOf.
+[[nodiscard]] const rules::Measure& decidingMeasure(const rules::Verdict& verdict);
 [[nodiscard]] const Vec3& placeOf(const VerdictReport& report, const rules::ReceiverResult& result);
 
 }  // namespace umbrage::cli

@@ -196,6 +196,12 @@ TEST_F(Behaviour, SamplesAreListedAndWritten) {
   const Ran list = umbrage({"sample", "--list"});
   ASSERT_EQ(list.code, 0);
   for (const auto* name : {"courtyard", "tower", "industrial", "building"}) EXPECT_THAT(list.out, HasSubstr(name));
+  // Files hold no lights, and say so in their own frame: the lamp hangs 7 m high.
+  const Ran life = umbrage({"sample", "still_life", "-o", file("life.glb")});
+  EXPECT_EQ(life.code, 0) << life.err;
+  EXPECT_THAT(life.err, AllOf(StartsWith("warning: "), HasSubstr("'lamp' (--light point:-3.5,7,5.5,#ffffff,0.9)"),
+                              HasSubstr("sample:still_life")));
+  EXPECT_THAT(umbrage({"sample", "still_life", "-o", file("life.city.json")}).err, HasSubstr("point:-3.5,-5.5,7,"));
   ASSERT_EQ(umbrage({"sample", "courtyard", "-o", file("courtyard.glb")}).code, 0);
   const auto count = [&](const std::string& scene) {
     const Ran ran = umbrage({"info", scene, "--json"});

@@ -103,6 +103,20 @@ TEST_F(Cutting, AnObjWritesNoMaterialsOfOthers) {
   EXPECT_EQ(refused.code, 2) << refused.err;
   EXPECT_THAT(refused.err, testing::HasSubstr("house.mtl"));
   EXPECT_EQ(read("house.mtl"), "newmtl mine\n");
+  // Nor what the scene itself is read with, also where an .obj of that name is there.
+  write("scene.obj", "mtllib my look.mtl  other.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("other.mtl", "newmtl mine\n");
+  write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Ran named = umbrage({"cut", file("scene.obj"), "-o", file("other.obj")});
+  EXPECT_EQ(named.code, 2) << named.err;
+  EXPECT_THAT(named.err, HasSubstr("other.mtl, which scene.obj is read with"));
+  EXPECT_EQ(read("other.mtl"), "newmtl mine\n");
+  write("spaced.obj", "mtllib my look.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("my look.mtl", "newmtl mine\n");
+  write("my look.obj", "v 0 0 0\n");
+  EXPECT_EQ(umbrage({"cut", file("spaced.obj"), "-o", file("my look.obj")}).code, 2);
+  std::filesystem::remove(file("other.obj"));
+  std::filesystem::remove(file("other.mtl"));
   // What came with an .obj goes with it.
   EXPECT_EQ(umbrage({"cut", box, "-o", file("other.obj")}).code, 0);
   EXPECT_EQ(umbrage({"cut", box, "-o", file("other.obj")}).code, 0);

@@ -114,6 +114,53 @@ TEST_F(Verify, SharesOfNewShadowAreInTheTableToo) {
   EXPECT_NEAR(std::stod(csv.substr(before + 1)), share, 1e-9);
 }
 
+// A spreadsheet runs what begins like a formula.
+TEST_F(Verify, NamesInTablesAreNoFormulas) {
+  const auto area = write("area.geojson", R"json({"type":"Feature","properties":{"name":"=HYPERLINK(\"http://a\")"},
+      "geometry":{"type":"Polygon","coordinates":[[[-4,2],[4,2],[4,8],[-4,2]]]},"crs":null})json");
+  Json rule = Json::parse(umbrage({"verify", "--print-preset", "bre209"}).out);
+  for (const auto& [name, cell] : {std::pair("-2+3", "\"'-2+3\""), std::pair(" @SUM(A1)", "\"' @SUM(A1)\""),
+                                   std::pair("+1", "\"'+1\""), std::pair("2 h, or more", "\"2 h, or more\"")}) {
+    rule["requirements"][0]["name"] = name;
+    const Ran ran = run({"verify", writeBox("box.off", 20), "--preset", write("mine.json", rule.dump()), "--areas",
+                         area, "-o", file("e.csv")},
+                        kNewYork);
+    EXPECT_THAT(ran.code, testing::AnyOf(0, 1)) << ran.err;
+    const std::string csv = read("e.csv"), row = csv.substr(csv.find('\n') + 1);
+    EXPECT_THAT(row, StartsWith("\"'=HYPERLINK(\"\"http://a\"\")\"," + std::string(cell) + ",")) << name;
+    EXPECT_THAT(row, Not(HasSubstr("'-1"))) << "numbers stay";
+  }
+}
+
+// The layer of what fails ends at the area's border, also where cells reach beyond it.
+TEST_F(Verify, WhatFailsOnTheMapIsAPartOfItsArea) {
+  const auto area = write("area.geojson", R"({"type":"FeatureCollection","crs":null,"features":[
+      {"type":"Feature","properties":{"name":"dark"},"geometry":{"type":"Polygon","coordinates":[[[-4,2],[4.3,2],[0.7,5.9],[-4,2]]]}},
+      {"type":"Feature","properties":{"name":"dark"},"geometry":{"type":"Polygon","coordinates":[[[-30,-1],[0,-40],[30,-1],[-30,-1]]]}}]})");
+  const Ran ran = run({"verify", writeBox("box.off", 40), "--baseline", writeBox("low.off", 3), "--preset", "nyc-ceqr",
+                       "--areas", area, "--grid", "1.7", "-o", file("e.geojson"), "--json"},
+                      kNewYork);
+  EXPECT_EQ(ran.code, 1) << ran.err;
+  const Json findings = Json::parse(ran.out).at("findings"), map = Json::parse(read("e.geojson"));
+  std::vector<double> areas, failing;
+  for (const Json& feature : map.at("features")) {
+    const Json& p = feature.at("properties");
+    if (p.at("layer") == "areas") {
+      areas.push_back(p.at("area_m2"));
+      EXPECT_EQ(p.at(findings.at(0).at("requirement").get<std::string>()), "fails");
+    }
+    if (p.at("layer") == "fails") failing.push_back(p.at("area_m2"));
+  }
+  ASSERT_EQ(areas.size(), 2u);
+  ASSERT_EQ(failing.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double share = 1.0 - findings.at(i).at("share").get<double>();
+    EXPECT_LE(failing[i], areas[i] + 1e-6);
+    EXPECT_NEAR(failing[i] / areas[i], share, share == 1.0 ? 1e-6 : 0.1) << i;
+  }
+  EXPECT_LT(failing[1], 0.99 * areas[1]);
+}
+
 // Where the sun counts at no time, a limit on shadow would hold of itself; a polygon elsewhere has no shadow at all.
 TEST_F(Verify, NothingHoldsOfItself) {
   const auto box = writeBox("box.off", 20), before = writeBox("before.off", 5);
@@ -143,6 +190,21 @@ TEST_F(Verify, NearItsThresholdItTellsOfOtherConventions) {
   EXPECT_THAT(far.out, Not(HasSubstr("instead of")));
 }
 
+TEST_F(Verify, ExtensionsMayBeInCapitals) {
+  for (const char* name : {"e.CSV", "e.Svg", "e.GEOJSON"}) {
+    const Ran ran =
+        run({"verify", writeBox(), "--preset", "china-dahan-2", "--points", points(), "-o", file(name)}, kBeijing);
+    EXPECT_EQ(ran.code, 0) << name << ran.err;
+    EXPECT_TRUE(exists(name));
+  }
+  EXPECT_TRUE(exists("e.CSV.ledger.txt"));
+  const Ran page =
+      run({"verify", writeBox(), "--preset", "china-dahan-2", "--points", points(), "-o", file("page.HTML")}, kBeijing);
+  EXPECT_EQ(page.code, 0) << page.err;
+  EXPECT_THAT(read("page.HTML"), HasSubstr("</html>"));
+  EXPECT_TRUE(exists("page.csv") && exists("page.gif"));
+}
+
 TEST_F(Verify, ARuleOfOnesOwn) {
   const auto box = writeBox();
   Json rule = Json::parse(umbrage({"verify", "--print-preset", "china-dahan-2"}).out);
@@ -169,6 +231,8 @@ TEST_F(Verify, RefusalsSayWhy) {
     EXPECT_EQ(ran.out, "") << says;
     EXPECT_THAT(ran.err, HasSubstr(says));
   };
+  const auto around =
+      write("site.geojson", R"({"type":"Polygon","crs":null,"coordinates":[[[-3,-3],[3,-3],[3,3],[-3,3],[-3,-3]]]})");
   const std::vector<std::string> sydney = {"--lat",  "-33.9",      "--lon", "151",
                                            "--date", "2026-01-01", "--tz",  "Australia/Sydney"};
   refused({"--preset", "china-dahan-9", "--points", points()}, kBeijing, 2, "china-dahan-3");
@@ -180,6 +244,18 @@ TEST_F(Verify, RefusalsSayWhy) {
   refused({"--preset", "korea"}, kBeijing, 2, "--points");
   refused({"--preset", "korea", "--areas", park()}, kBeijing, 2, "not at --areas");
   refused({"--preset", "bre209", "--points", points()}, kBeijing, 2, "not at --points");
+  refused({"--preset", "bre209", "--areas", park(), "--windows", "*"}, kBeijing, 2,
+          "--areas AREAS.geojson; not at --windows");
+  refused({"--preset", "korea", "--points", points(), "--site", park()}, kBeijing, 2, "--windows PART; not at --site");
+  refused({"--preset", "bre209", "--areas", park(), "--site", park()}, kBeijing, 2,
+          "--areas AREAS.geojson; not at --site");
+  refused({"--preset", "japan-3-2", "--site", park(), "--areas", park()}, kBeijing, 2,
+          "--site SITE.geojson; not at --areas");
+  refused({"--preset", "japan-3-2", "--site", park(), "--points", points()}, kBeijing, 2, "not at --points");
+  // Too many points are refused before there is any.
+  refused({"--preset", "bre209", "--areas", park(), "--grid", "1e-6"}, kBeijing, 2, "take larger steps (--grid)");
+  refused({"--preset", "japan-3-2", "--site", around, "--grid", "1e-6"}, kBeijing, 2, "take larger steps (--grid)");
+  refused({"--preset", "korea", "--windows", "*", "--grid", "1e-6"}, kBeijing, 2, "take larger steps");
   refused({"--preset", "vancouver", "--areas", park()}, kNewYork, 2, "--baseline");
   refused({"--preset", "en17037-high", "--points", points()}, kBeijing, 2, "--country");
   refused({"--preset", "en17037-high", "--country", "XY", "--points", points()}, kBeijing, 2, "DE");
@@ -191,7 +267,7 @@ TEST_F(Verify, RefusalsSayWhy) {
   refused({"--preset", "bre209", "--areas", degrees}, kBeijing, 3, "reference system");
   const auto other = write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   refused({"--preset", "nyc-ceqr", "--areas", park(), "--baseline", other}, kNewYork, 3, "one frame");
-  EXPECT_THAT(files(), ElementsAre("box.off", "d.geojson", "other.obj", "p.csv", "park.geojson"));
+  EXPECT_THAT(files(), ElementsAre("box.off", "d.geojson", "other.obj", "p.csv", "park.geojson", "site.geojson"));
 }
 
 TEST_F(Verify, JapansSite) {

@@ -54,7 +54,17 @@ struct Setting {
   double share = 1.0;
   bool firstOnly = false;  // the second requirement is looked at elsewhere
   double altitude = -1.0;  // given to the rule
+  int every = 1;  // of rules that look at all days of a season: only every so many, by the rule and by the truth
 };
+
+// Every so many days of a season, and its last.
+inline std::vector<year_month_day> season(year_month_day first, year_month_day last, int every) {
+  std::vector<year_month_day> dates;
+  for (std::chrono::sys_days d = first; d < std::chrono::sys_days(last); d += std::chrono::days(every))
+    dates.emplace_back(d);
+  dates.push_back(last);
+  return dates;
+}
 
 inline double ofReceiver(const Setting& s, const std::vector<Block>& blocks, const study::Receiver& r) {
   double worst = 1e9, best = -1e9;
@@ -74,9 +84,14 @@ inline double truth(const Setting& s, const TargetSet& targets, const std::vecto
   return margins[wanted - 1];
 }
 
+// A day of the sun costs 12 ms, which is most of what these tests take: rules of seasons are held on some of their days, and that they look at
+// all of them is told by seasonOf.
 inline Rule ruleOf(const Setting& s) {
   auto rule = findRule(s.preset);
   EXPECT_TRUE(rule) << s.preset;
+  for (Requirement& r : rule->requirements)
+    for (Measure& m : r.anyOf)
+      if (s.every > 1) m.days.every = s.every;
   return s.altitude >= 0.0 ? withLeastAltitude(*rule, Angle::degrees(s.altitude)) : *rule;
 }
 
@@ -146,6 +161,13 @@ inline Verdict verdictOf(const Setting& s, const TargetSet& targets, const std::
   auto verdict = verify(sceneOf(blocks), nullptr, ruleOf(s), targets, request);
   EXPECT_TRUE(verdict) << s.preset << (verdict ? "" : verdict.error().text());
   return verdict ? *verdict : Verdict{};
+}
+
+// All days that a preset looks at, as it comes.
+inline std::vector<year_month_day> seasonOf(const Setting& s) {
+  const auto rule = findRule(s.preset);
+  EXPECT_TRUE(rule) << s.preset;
+  return datesOf(rule->requirements.at(0).anyOf.at(0), requestOf(s));
 }
 
 inline double leastMargin(const Setting& s, const Verdict& v) {

@@ -54,6 +54,13 @@ Result<void> writeAll(const std::filesystem::path& temporary, std::span<const st
 
 }  // namespace
 
+std::string lowerExtension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
+
 Result<std::vector<std::byte>> readFile(const std::filesystem::path& path, std::size_t maxBytes) {
   // O_NONBLOCK: opening a named pipe must not hang; it is refused below as not a regular file.
   Descriptor in(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));

@@ -15,6 +15,9 @@ namespace umbrage {
 [[nodiscard]] Result<std::vector<std::byte>> readFile(const std::filesystem::path& path,
                                                       std::size_t maxBytes = std::size_t{1} << 31);
 
+/// ".png" of "Picture.PNG": what tells the kind of a file, in small letters.
+[[nodiscard]] std::string lowerExtension(const std::filesystem::path& path);
+
 /// Writes a file whole or not at all: into a temporary file beside it, flushed, then renamed over it.
 /// What is there and no regular file (a device, a pipe, a folder) is left alone.
 /// Errors: ErrorCode::output, with the path and the system's reason.

@@ -103,7 +103,7 @@ Result<void> writeColoured(const ColouredMesh& mesh, const scene::Scene& frame, 
   UMBRAGE_CHECK(mesh.colours.size() == mesh.positions.size() && mesh.exitance.size() == mesh.positions.size(),
                 "one colour a position");
   const Mat4 turn = writer::toMetres(frame, scene::UpAxis::y);
-  const std::string extension = path.extension().string();
+  const std::string extension = lowerExtension(path);
   if (extension != ".glb" && extension != ".ply")
     return fail(ErrorCode::usage, "the file name must end with .glb or .ply", path.string());
   const auto bytes = extension == ".glb" ? glb(mesh, turn) : ply(mesh, turn);

@@ -45,7 +45,7 @@ std::string csvOf(const study::HoursTable& table, bool withPlaces) {
 
 Result<std::vector<std::filesystem::path>> writeHours(const study::HoursTable& table, const scene::Scene& scene,
                                                       const std::filesystem::path& path) {
-  const std::string kind = path.extension().string();
+  const std::string kind = lowerExtension(path);
   const bool grid = table.set.lattice.columns > 0;
   if ((kind == ".png" || kind == ".tif") && !grid)
     return fail(ErrorCode::usage,

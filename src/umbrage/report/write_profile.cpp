@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "umbrage/base/file.hpp"
 #include "umbrage/png/png.hpp"
 #include "umbrage/report/detail/remarks.hpp"
 #include "umbrage/report/gif.hpp"
@@ -23,7 +24,7 @@ std::filesystem::path beside(const std::filesystem::path& path, const std::strin
 Result<std::vector<std::filesystem::path>> writeProfile(const study::Profile& profile, const scene::Scene& scene,
                                                         const std::filesystem::path& path,
                                                         const ProgressSink& progress) {
-  if (path.extension() != ".png") return fail(ErrorCode::usage, "a profile is written as .png", path.string());
+  if (lowerExtension(path) != ".png") return fail(ErrorCode::usage, "a profile is written as .png", path.string());
   const auto hours = beside(path, "-hours.png"), animation = beside(path, ".gif");
 
   const StepPictures pictures(scene, profile);

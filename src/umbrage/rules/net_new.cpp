@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 
 #include "umbrage/outline/combine.hpp"
 #include "umbrage/rules/detail/days.hpp"
@@ -165,6 +166,12 @@ scene::Scene onlyOf(scene::Scene scene, const std::string& building) {
   return scene;
 }
 
+std::chrono::year_month_day nearestTo(std::chrono::sys_days day,
+                                      const std::vector<std::chrono::year_month_day>& dates) {
+  const auto off = [&](const auto& date) { return std::chrono::abs(std::chrono::sys_days(date) - day); };
+  return *std::min_element(dates.begin(), dates.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); });
+}
+
 }  // namespace
 
 Result<std::vector<AreaNews>> newOnPoints(const scene::Scene& proposal, const scene::Scene& baseline,
@@ -206,29 +213,26 @@ Result<std::vector<AreaNews>> newOnPoints(const scene::Scene& proposal, const sc
 }
 
 std::vector<std::chrono::year_month_day> newsDates(const Verdict& verdict, const VerifyRequest& request) {
-  std::vector<std::chrono::year_month_day> all, deciding;
-  for (const Requirement& r : verdict.rule.requirements)
-    for (const Measure& m : r.anyOf)
-      for (const auto& date : datesOf(m, request)) all.push_back(date);
-  for (const Finding& f : verdict.findings)
-    if (f.deciding) deciding.push_back(f.receivers[*f.deciding].date);
-  const auto tidy = [](auto& dates) {
-    std::sort(dates.begin(), dates.end());
-    dates.erase(std::unique(dates.begin(), dates.end()), dates.end());
-  };
-  tidy(all), tidy(deciding);
+  using std::chrono::year_month_day;
+  const Deciding deciding = decidingOf(verdict);
+  const std::size_t requirement = verdict.findings[deciding.finding].requirement;
+  const std::vector<year_month_day> all =
+      datesOf(verdict.rule.requirements[requirement].anyOf[deciding.measure], request);
   if (all.size() <= kMostNewsDays) return all;
-  if (!deciding.empty()) {
-    deciding.resize(std::min(deciding.size(), kMostNewsDays));
-    return deciding;
+  std::set<year_month_day> chosen;
+  if (deciding.date) chosen.insert(*deciding.date);
+  for (const Finding& f : verdict.findings) {
+    if (!f.deciding || f.requirement != requirement || chosen.size() == kMostNewsDays) continue;
+    const ReceiverResult& r = f.receivers[*f.deciding];
+    if (r.measure == deciding.measure) chosen.insert(r.date);
   }
-  // Of a year without deciding days the solstices and the equinoxes.
-  for (const Angle longitude : {Angle{}, Angle::degrees(90), Angle::degrees(180), Angle::degrees(270)})
-    deciding.push_back(
-        sun::clockAt(request.zone, request.place, detail::instantOfLongitude(longitude, request.date.year()))
-            .clock.date);
-  tidy(deciding);
-  return deciding;
+  if (!deciding.date)
+    for (const Angle longitude : {Angle{}, Angle::degrees(90), Angle::degrees(180), Angle::degrees(270)})
+      chosen.insert(nearestTo(
+          sun::clockAt(request.zone, request.place, detail::instantOfLongitude(longitude, request.date.year()))
+              .clock.date,
+          all));
+  return {chosen.begin(), chosen.end()};
 }
 
 Result<NetNew> netNew(const scene::Scene& proposal, const scene::Scene& baseline, const sun::Place& place,

@@ -67,7 +67,8 @@ struct NetNewOptions {
                                                         const study::SunModel& sun = {},
                                                         const ProgressSink& progress = {});
 
-/// What a verdict's days bring that are worth telling: all of a rule with few days, else those that decide, at most kMostNewsDays.
+/// The days worth telling of a verdict, those of the measure that decides it (decidingOf), ascending: all where they are few, else those that decide
+/// for an area by it; of shares of new shadow, which no day decides, those nearest to equinoxes and solstices. At most kMostNewsDays.
 inline constexpr std::size_t kMostNewsDays = 4;
 [[nodiscard]] std::vector<std::chrono::year_month_day> newsDates(const Verdict& verdict, const VerifyRequest& request);
 

@@ -252,5 +252,60 @@ TEST(NetNew, daysThatAreToldOf) {
   EXPECT_EQ(newsDates(*boston, request).size(), 1u);
 }
 
+// Of several requirements and measures the days are those of the one that decides.
+TEST(NetNew, daysAreThoseOfWhatDecides) {
+  const VerifyRequest request{kNewYork, kZone, kDate, Sensitivity::never};
+  const auto park = areaTargets({{"park", rectangle({-30, 60}, {-10, 80})}}, sceneOf({}), 10.0, 0.0);
+  const scene::Scene before = sceneOf({kOld}), after = sceneOf({kOld, kTower});
+  Rule rule = *findRule("nyc-ceqr");
+  const auto ofDay = [&](std::chrono::month_day day, Statistic statistic, Comparison comparison, auto threshold) {
+    Measure m = rule.requirements[0].anyOf[0];
+    m.days = {Days::Kind::dates, {day}, {}};
+    m.statistic = statistic, m.comparison = comparison, m.threshold = threshold;
+    return m;
+  };
+  using std::chrono::June, std::chrono::December;
+  Requirement easy = rule.requirements[0], hard = rule.requirements[0];
+  easy.name = "sun in June", hard.name = "no new shadow in December, or sun all day";
+  easy.anyOf = {ofDay(June / 21, Statistic::sun, Comparison::atLeast, 1h)};
+  hard.anyOf = {ofDay(December / 21, Statistic::sun, Comparison::atLeast, 23h),
+                ofDay(December / 22, Statistic::newShadow, Comparison::atMost, 0h)};
+  rule.requirements = {easy, hard};
+  const auto v = verify(after, &before, rule, *park, request);
+  ASSERT_TRUE(v);
+  ASSERT_TRUE(v->findings[0].passes);
+  ASSERT_FALSE(v->findings[1].passes);
+  const Deciding deciding = decidingOf(*v);
+  EXPECT_EQ(deciding.finding, 1u);
+  EXPECT_EQ(deciding.measure, 1u);
+  EXPECT_EQ(deciding.date, std::chrono::year(2026) / 12 / 22);
+  EXPECT_EQ(newsDates(*v, request), std::vector{std::chrono::year_month_day(std::chrono::year(2026) / 12 / 22)});
+  // Where all hold, the one with the least to spare.
+  rule.requirements = {easy, easy};
+  rule.requirements[1].anyOf[0].threshold = 2h;
+  const auto passes = verify(after, &before, rule, *park, request);
+  ASSERT_TRUE(passes && passes->passes);
+  EXPECT_EQ(decidingOf(*passes).finding, 1u);
+}
+
+// Of shares over a part of the year no day is told of that the rule does not look at.
+TEST(NetNew, daysOfSharesAreTheRulesOwn) {
+  const VerifyRequest request{kNewYork, kZone, kDate, Sensitivity::never};
+  const auto park = areaTargets({{"park", rectangle({-30, 60}, {-10, 80})}}, sceneOf({}), 20.0, 0.0);
+  const scene::Scene before = sceneOf({kOld}), after = sceneOf({kOld, kTower});
+  Rule rule = *findRule("san-francisco-1");
+  Days& days = rule.requirements[0].anyOf[0].days;
+  days.dates = {std::chrono::February / 1, std::chrono::July / 1}, days.every = 10;
+  const auto v = verify(after, &before, rule, *park, request);
+  ASSERT_TRUE(v);
+  const auto dates = newsDates(*v, request);
+  EXPECT_EQ(decidingOf(*v).date, std::nullopt);
+  EXPECT_GE(dates.size(), 2u);
+  for (const auto& date : dates) {
+    EXPECT_GE(date, std::chrono::year(2026) / 2 / 1);
+    EXPECT_LE(date, std::chrono::year(2026) / 7 / 1);
+  }
+}
+
 }  // namespace
 }  // namespace umbrage::rules

@@ -31,7 +31,9 @@ struct Days {
   std::vector<std::chrono::month_day> dates;  ///< of ranges the first and the last
   std::vector<Angle> longitudes;              ///< [0, 360) degrees
   int every = 1;                              ///< of ranges every so many days, the last one always
-  bool best = false;  ///< one day that suits is enough, the same for all receivers; else each day counts
+  /// One day that suits is enough, the same for all receivers, by all of the requirement; else each day counts. REQUIRES: the requirement has
+  /// one measure.
+  bool best = false;
 };
 
 /// The part of a day that counts: what all of its limits leave.

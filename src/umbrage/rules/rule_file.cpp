@@ -21,6 +21,7 @@ constexpr std::size_t kLargestFile = 1 << 20;
 constexpr double kDay = 24.0;
 
 milliseconds ofHours(double hours) { return milliseconds(std::llround(hours * 3.6e6)); }
+double hoursOf(milliseconds time) { return double(time.count()) / 3.6e6; }
 milliseconds ofMinutes(double minutes) { return milliseconds(std::llround(minutes * 6e4)); }
 
 // "12-21". A leap year tells real days from others.
@@ -30,33 +31,48 @@ std::optional<std::chrono::month_day> monthDay(const std::string& text) {
   return date->month() / date->day();
 }
 
-Days daysOf(JsonReader& in) {
-  Days days;
+void readDates(JsonReader& in, Days& days) {
+  days.kind = Days::Kind::dates;
   for (const std::string& text : in.texts("dates")) {
     const auto day = monthDay(text);
     if (!day) in.wrong("dates", fmt::format("'{}' is no day; write MM-DD", text));
     if (day) days.dates.push_back(*day);
   }
+  if (days.dates.empty()) in.wrong("dates", "is empty");
+}
+
+void readLongitudes(JsonReader& in, Days& days) {
+  days.kind = Days::Kind::longitudes;
   for (const double degrees : in.numbers("solar_longitudes", 0.0, 359.999))
     days.longitudes.push_back(Angle::degrees(degrees));
-  const std::string from = in.text("from"), to = in.text("to");
-  const int kinds = int(!days.dates.empty()) + int(!days.longitudes.empty()) + int(!from.empty() || !to.empty());
-  if (kinds > 1) in.wrong("", "dates, solar_longitudes and from with to exclude each other");
-  if (!days.dates.empty()) days.kind = Days::Kind::dates;
-  if (!days.longitudes.empty()) days.kind = Days::Kind::longitudes;
-  if (!from.empty() || !to.empty()) {
-    days.kind = Days::Kind::range;
-    for (const auto& [key, text] : {std::pair("from", from), std::pair("to", to)}) {
-      const auto day = monthDay(text);
-      if (!day) in.wrong(key, "a day MM-DD is wanted, and from and to belong together");
-      days.dates.push_back(day.value_or(std::chrono::January / 1));
-    }
+  if (days.longitudes.empty()) in.wrong("solar_longitudes", "is empty");
+}
+
+void readRange(JsonReader& in, Days& days) {
+  days.kind = Days::Kind::range;
+  for (const char* key : {"from", "to"}) {
+    const auto day = monthDay(in.text(key));
+    if (!day) in.wrong(key, "a day MM-DD is wanted, and from and to belong together");
+    days.dates.push_back(day.value_or(std::chrono::January / 1));
   }
-  const auto every = in.number("every", 1, 366);
-  if (every && days.kind != Days::Kind::range) in.wrong("every", "belongs to from and to");
-  days.every = static_cast<int>(every.value_or(1.0));
+}
+
+// Which days they are must be said: the date of a command is none that a rule means by itself.
+Days daysOf(JsonReader& in) {
+  constexpr const char* kWanted = "dates, solar_longitudes, from with to, or given: true is wanted";
+  Days days;
+  const bool dates = in.has("dates"), longitudes = in.has("solar_longitudes"), range = in.has("from") || in.has("to"),
+             given = in.flag("given");
+  const int kinds = int(dates) + int(longitudes) + int(range) + int(given);
+  if (kinds == 0) in.wrong("", kWanted);
+  if (kinds > 1) in.wrong("", "dates, solar_longitudes, from with to, and given: true exclude each other");
+  if (dates) readDates(in, days);
+  if (longitudes) readLongitudes(in, days);
+  if (range) readRange(in, days);
+  const auto every = in.whole("every", 1, 366);
+  if (every && !range) in.wrong("every", "belongs to from and to");
+  days.every = every.value_or(1);
   days.best = in.word("count", {"each", "best"}) == 1;
-  if (kinds == 0 && !in.flag("given")) in.wrong("", "dates, solar_longitudes, from with to, or given: true is wanted");
   in.finish();
   return days;
 }
@@ -83,13 +99,14 @@ Window windowOf(JsonReader& in) {
   return window;
 }
 
+constexpr std::pair<const char*, Comparison> kThresholds[] = {{"at_least_hours", Comparison::atLeast},
+                                                              {"more_than_hours", Comparison::moreThan},
+                                                              {"at_most_hours", Comparison::atMost},
+                                                              {"less_than_hours", Comparison::lessThan}};
+
 void readThreshold(JsonReader& in, Measure& measure) {
-  constexpr std::pair<const char*, Comparison> kKinds[] = {{"at_least_hours", Comparison::atLeast},
-                                                           {"more_than_hours", Comparison::moreThan},
-                                                           {"at_most_hours", Comparison::atMost},
-                                                           {"less_than_hours", Comparison::lessThan}};
   int found = 0;
-  for (const auto& [key, comparison] : kKinds) {
+  for (const auto& [key, comparison] : kThresholds) {
     const auto hours = in.number(key, 0.0, kDay);
     if (!hours) continue;
     measure.threshold = ofHours(*hours), measure.comparison = comparison;
@@ -110,9 +127,12 @@ void checkSense(JsonReader& in, const Measure& m) {
     in.wrong("less_than_hours", "nothing is less than 0 hours");
   if (m.comparison == Comparison::atLeast && m.threshold == milliseconds(0))
     in.wrong("at_least_hours", "0 hours are always there");
-  if (m.window.from && m.window.to && wantsMore && m.threshold > *m.window.to - *m.window.from)
-    in.wrong("", fmt::format("{:g} h are wanted of a window of {:g} h", double(m.threshold.count()) / 3.6e6,
-                             double((*m.window.to - *m.window.from).count()) / 3.6e6));
+  const milliseconds window = m.window.to.value_or(std::chrono::hours(24)) - m.window.from.value_or(milliseconds(0));
+  const bool beyond = m.comparison == Comparison::moreThan ? m.threshold >= window : m.threshold > window;
+  if (wantsMore && beyond)
+    in.wrong("", fmt::format("{}{:g} h are wanted of a window of {:g} h",
+                             m.comparison == Comparison::moreThan ? "more than " : "", hoursOf(m.threshold),
+                             hoursOf(window)));
 }
 
 Measure measureOf(JsonReader& in, const Measure& common, bool hasThreshold) {
@@ -136,34 +156,63 @@ Measure measureOf(JsonReader& in, const Measure& common, bool hasThreshold) {
   return measure;
 }
 
+// A total over all days and receivers has no measure of its own: what stands beside it and would be passed over is a slip.
+void readNewShare(JsonReader& in, Requirement& r) {
+  r.mostNew = in.number("at_most_new_share", 0.0, 1.0);
+  const auto alone = [&](const char* other) {
+    if (in.has(other)) in.wrong(other, "at_most_new_share stands alone, without it");
+  };
+  for (const char* other : {"any", "share", "or_former_times", "least_run_minutes"}) alone(other);
+  for (const auto& [key, comparison] : kThresholds) alone(key);
+  Measure& m = r.anyOf.front();
+  if (in.has("statistic") && m.statistic != Statistic::newShadow)
+    in.wrong("statistic", "at_most_new_share is of new_shadow; leave the statistic out");
+  if (m.days.best) in.wrong("days.count", "at_most_new_share adds up all days, and no best one");
+  m.statistic = Statistic::newShadow;
+  m.comparison = Comparison::atMost;
+}
+
+void checkDays(JsonReader& in, JsonReader& common) {
+  if (!in.has("days") && !common.has("days"))
+    in.wrong("days", "is missing: dates, solar_longitudes, from with to, or given: true");
+}
+
+void readAlternatives(JsonReader& in, const Measure& common, Requirement& r) {
+  for (JsonReader& one : in.objects("any")) {
+    r.anyOf.push_back(measureOf(one, common, true));
+    checkDays(one, in);
+    one.finish();
+  }
+  if (r.anyOf.empty()) in.wrong("any", "is empty");
+  for (const auto& [key, comparison] : kThresholds)
+    if (in.has(key)) in.wrong(key, "each of any has a threshold of its own; write it there");
+  for (const Measure& m : r.anyOf)
+    if (m.days.best && r.anyOf.size() > 1) in.wrong("any", "one best day cannot be that of several measures");
+}
+
+Band bandOf(JsonReader& in) {
+  const Band band{in.number("from", 0.0, 1e4).value_or(0.0), in.number("to", 0.0, 1e4)};
+  if (band.to && *band.to <= band.from) in.wrong("", "the band is empty: from is not before to");
+  in.finish();
+  return band;
+}
+
 Requirement requirementOf(JsonReader& in) {
   Requirement r;
   const bool alternatives = in.has("any"), total = in.has("at_most_new_share");
   const Measure common = measureOf(in, {}, !alternatives && !total);
   r.name = in.text("name", true);
-  for (JsonReader& one : in.objects("any")) {
-    r.anyOf.push_back(measureOf(one, common, true));
-    one.finish();
+  if (alternatives && !total) {
+    readAlternatives(in, common, r);
+  } else {
+    r.anyOf.push_back(common);
+    checkDays(in, in);
   }
-  if (alternatives && r.anyOf.empty()) in.wrong("any", "is empty");
-  if (!alternatives) r.anyOf.push_back(common);
-  for (const Measure& m : r.anyOf)
-    if (m.days.best && r.anyOf.size() > 1) in.wrong("any", "one best day cannot be that of several measures");
-  if (auto band = in.object("metres_from_site")) {
-    r.band = Band{band->number("from", 0.0, 1e4).value_or(0.0), band->number("to", 0.0, 1e4)};
-    if (r.band->to && *r.band->to <= r.band->from) band->wrong("", "the band is empty: from is not before to");
-    band->finish();
-  }
+  if (auto band = in.object("metres_from_site")) r.band = bandOf(*band);
   r.share = in.number("share", 0.0, 1.0).value_or(1.0);
   if (r.share <= 0.0) in.wrong("share", "a share above 0 is wanted");
   r.former = in.number("or_former_times", 0.0, 1.0);
-  if (total) {
-    r.mostNew = in.number("at_most_new_share", 0.0, 1.0);
-    if (alternatives || in.has("share") || r.former)
-      in.wrong("at_most_new_share", "stands alone, without any, share and or_former_times");
-    r.anyOf.front().statistic = Statistic::newShadow;
-    r.anyOf.front().comparison = Comparison::atMost;
-  }
+  if (total) readNewShare(in, r);
   if (r.former &&
       std::any_of(r.anyOf.begin(), r.anyOf.end(), [](const Measure& m) { return m.statistic == Statistic::newShadow; }))
     in.wrong("or_former_times", "new shadow has no former value");
@@ -196,6 +245,7 @@ void readCountries(JsonReader& in, Rule& rule) {
   for (const auto& [country, value] : in.json().items())
     if (const auto degrees = in.number(country.c_str(), 0.0, 89.0))
       rule.altitudeByCountry.emplace_back(country, Angle::degrees(*degrees));
+  if (in.json().empty()) in.wrong("", "is empty: a country and its degrees are wanted");
 }
 
 Rule ruleOf(JsonReader& in) {
@@ -215,6 +265,9 @@ Rule ruleOf(JsonReader& in) {
   for (const Requirement& r : rule.requirements) {
     if (r.band && rule.receivers != ReceiverKind::site)
       in.wrong("requirements", "metres_from_site belongs to receivers of kind site");
+    const bool ofAll = r.mostNew || r.share < 1.0, ends = r.band && r.band->to;
+    if (rule.receivers == ReceiverKind::site && ofAll && !ends)
+      in.wrong("requirements", "a share of what lies around a site wants an end: metres_from_site with to");
     for (const Measure& m : r.anyOf)
       if (m.leastAltitude && !rule.altitudeByCountry.empty())
         in.wrong("least_sun_altitude_by_country", "a measure has an altitude of its own");
@@ -254,7 +307,7 @@ tl::unexpected<Error> noPreset(const std::string& name) {
 }  // namespace
 
 Result<Rule> parseRule(std::string_view json, const std::string& where) {
-  const auto document = detail::parseJson(json, where);
+  const auto document = detail::parseStrictJson(json, where);
   if (!document) return tl::unexpected(document.error());
   std::string fault;
   JsonReader in(*document, "", fault);

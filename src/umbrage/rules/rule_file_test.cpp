@@ -58,11 +58,58 @@ TEST(RuleFile, contradictionsAndSlipsAreNamed) {
       {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"metres_from_site\":{\"from\":5}"),
        "receivers of kind site"},
       {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"least_run_minutes\":\"5\""), "least_run_minutes"},
+      {with("\"kind\":\"points\"},\n  \"requirements\":[{", "\"kind\":\"site\"},\n  \"requirements\":[{\"share\":0.5,"),
+       "wants an end"},
       {with("\"kind\":\"points\"", "\"kind\":\"windows\""), "one of points, areas, site"},
       {with("\"kind\":\"points\"", "\"kind\":\"points\",\"height\":2"), "points lie where they are"},
       {with("\"name\":\"mine\",", ""), "name: is missing"},
       {with("\"requirements\":[", "\"requirements\":[],\"other\":["), "requirements: is missing or empty"},
       {with("\"at_least_hours\":2", "\"at_most_new_share\":0.1,\"share\":0.5"), "stands alone"},
+      // The same member twice: nobody knows which is meant.
+      {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"at_least_hours\":3"),
+       "requirements[0].at_least_hours: is there twice"},
+      {with("\"name\":\"mine\"", "\"name\":\"mine\",\"name\":\"yours\""), "name: is there twice"},
+      {with("\"clock\":\"solar\"", "\"clock\":\"solar\",\"clock\":\"zone\""), "requirements[0].window.clock: is there"},
+      // Numbers that are none, too large, or no whole ones.
+      {with("\"at_least_hours\":2", "\"at_least_hours\":1e999"),
+       "requirements[0].at_least_hours: the number is too large"},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":NaN"), "in requirements[0].at_least_hours"},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":24.5"),
+       "requirements[0].at_least_hours: a number from 0 to 24"},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":\"2\""), "requirements[0].at_least_hours: a number"},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":true"), "requirements[0].at_least_hours: a number"},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"share\":1.5"),
+       "requirements[0].share: a number from 0 to 1"},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"or_former_times\":-0.1"),
+       "requirements[0].or_former_times: "},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"least_sun_altitude\":90"), "least_sun_altitude: a number"},
+      {with("\"at_least_hours\":2", "\"more_than_hours\":8"), "more than 8 h are wanted of a window of 8 h"},
+      {with("{\"dates\":[\"03-21\"]}", R"({"from":"02-01","to":"03-21","every":1.7})"),
+       "requirements[0].days.every: a whole number from 1 to 366"},
+      {with("{\"dates\":[\"03-21\"]}", R"({"from":"02-01","to":"03-21","every":0})"), "a whole number from 1 to 366"},
+      {with("{\"dates\":[\"03-21\"]}", R"({"dates":["03-21"],"every":7})"), "every: belongs to from and to"},
+      {with("{\"dates\":[\"03-21\"]}", R"({"dates":["03-21",5]})"), "requirements[0].days.dates[1]: a text"},
+      {with("{\"dates\":[\"03-21\"]}", R"({"solar_longitudes":[0,361]})"), "days.solar_longitudes[1]: a number"},
+      // Which days are meant must be said.
+      {with("\"days\":{\"dates\":[\"03-21\"]},", ""), "requirements[0].days: is missing"},
+      {with("{\"dates\":[\"03-21\"]}", "[]"), "requirements[0].days: an object"},
+      {with("{\"dates\":[\"03-21\"]}", "{\"dates\":[]}"), "requirements[0].days.dates: is empty"},
+      {with("{\"dates\":[\"03-21\"]}", "{\"solar_longitudes\":[]}"), "requirements[0].days.solar_longitudes: is empty"},
+      {with("{\"dates\":[\"03-21\"]}", "{\"given\":false}"), "given: true is wanted"},
+      {with("{\"dates\":[\"03-21\"]}", R"({"dates":["03-21"],"given":true})"), "exclude each other"},
+      {with("{\"dates\":[\"03-21\"]}", R"({"dates":["03-21"],"givn":true})"),
+       "there are dates, solar_longitudes, from"},
+      // A share of new shadow has no measure of its own.
+      {with("\"at_least_hours\":2", "\"at_most_new_share\":0.1"), "requirements[0].statistic: at_most_new_share is of"},
+      {with("\"statistic\":\"sun\",\"at_least_hours\":2", "\"at_most_new_share\":0.1,\"least_run_minutes\":5"),
+       "requirements[0].least_run_minutes: at_most_new_share stands alone"},
+      {with("\"statistic\":\"sun\",\"at_least_hours\":2", "\"at_most_new_share\":0.1,\"any\":[]"),
+       "any: at_most_new_share"},
+      {with("\"statistic\":\"sun\",\"at_least_hours\":2", "\"at_most_new_share\":0.1,\"at_most_hours\":1"),
+       "requirements[0].at_most_hours: at_most_new_share stands alone"},
+      {with("\"statistic\":\"sun\",", "\"any\":[{\"at_least_hours\":3}],"), "at_least_hours: each of any has"},
+      {with("\"source\":\"its plan\"", "\"source\":\"its plan\",\"least_sun_altitude_by_country\":{}"),
+       "least_sun_altitude_by_country: is empty"},
   };
   for (const auto& [text, says] : wrong) {
     const auto rule = parseRule(text, "mine.json");
@@ -71,6 +118,27 @@ TEST(RuleFile, contradictionsAndSlipsAreNamed) {
     EXPECT_EQ(rule.error().where, "mine.json");
     EXPECT_THAT(rule.error().message, HasSubstr(says));
   }
+}
+
+TEST(RuleFile, whatMayBeLeftOut) {
+  // Whole numbers as other programs write them, the day of the command, and alternatives with days of their own.
+  const auto range = parseRule(with("{\"dates\":[\"03-21\"]}", R"({"from":"02-01","to":"03-21","every":7.0})"), "a");
+  ASSERT_TRUE(range) << range.error().text();
+  EXPECT_EQ(range->requirements[0].anyOf[0].days.every, 7);
+  const auto given = parseRule(with("{\"dates\":[\"03-21\"]}", "{\"given\":true}"), "a");
+  ASSERT_TRUE(given) << given.error().text();
+  EXPECT_EQ(given->requirements[0].anyOf[0].days.kind, Days::Kind::given);
+  const auto own =
+      parseRule(with("\"days\":{\"dates\":[\"03-21\"]},\"window\":{\"clock\":\"solar\",\"from\":\"08:00\",\"to\":"
+                     "\"16:00\"},\n                   \"statistic\":\"sun\",\"at_least_hours\":2",
+                     R"("any":[{"days":{"given":true},"at_least_hours":2}])"),
+                "a");
+  ASSERT_TRUE(own) << own.error().text();
+  const auto share = parseRule(
+      with("\"statistic\":\"sun\",\"at_least_hours\":2", "\"statistic\":\"new_shadow\",\"at_most_new_share\":0.1"),
+      "a");
+  ASSERT_TRUE(share) << share.error().text();
+  EXPECT_TRUE(needsBaseline(*share));
 }
 
 TEST(RuleFile, alternativesShareWhatIsCommon) {

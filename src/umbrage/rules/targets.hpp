@@ -37,11 +37,14 @@ struct TargetSet {
   std::string described;            ///< for the ledger
 };
 
+/// More receivers than these, some 250 bytes each with what is found at them, are refused before any memory is used.
+inline constexpr std::size_t kMostTargets = 10'000'000;
+
 /// All points together are one group.
 [[nodiscard]] TargetSet pointTargets(const study::ReceiverSet& set);
 
 /// The middles of a grid's cells within each area, facing up, each standing for the same part of its area. An area that holds no middle
-/// of a cell gets the middle of one that it touches most. REQUIRES: step > 0. Errors: usage (no area, or more points than study::kMostReceivers).
+/// of a cell gets one point within it. REQUIRES: step > 0. Errors: usage (no area, or more points than kMostTargets).
 [[nodiscard]] Result<TargetSet> areaTargets(const std::vector<Area>& areas, const scene::Scene& scene, double step,
                                             double height);
 
@@ -51,10 +54,14 @@ struct SiteGrid {
   double step = 1.0;    ///< metres of the grid beyond the nearest line
   double reach = 0.0;   ///< metres from the site within which points are wanted
 };
-/// Points on the lines around a site at the distances of the rule's bands, and on a grid beyond the nearest of them.
-/// Errors: usage (the site is empty, the rule has no bands, more points than study::kMostReceivers).
+/// Points on the lines around a site at which the rule's bands begin, and on a grid beyond the nearest of them; of a band without a beginning, and of
+/// a requirement without a band, from the site's border on.
+/// REQUIRES: along > 0, step > 0. Errors: usage (the site is empty, the rule looks at no site, more points than kMostTargets).
 [[nodiscard]] Result<TargetSet> siteTargets(const Area& site, const Rule& rule, const scene::Scene& scene,
                                             const SiteGrid& grid);
+
+/// How far, in metres, parts that cast and whose middle lies on the site may reach beyond it: by their boxes.
+[[nodiscard]] double overhang(const scene::Scene& scene, const Area& site);
 
 /// The parts whose middle in plan lies on the site cast, and no others. Errors: usage, where none does.
 [[nodiscard]] Result<scene::Scene> castersOnSite(scene::Scene scene, const Area& site);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "umbrage/base/check.hpp"
 #include "umbrage/rules/detail/judge.hpp"
 #include "umbrage/study/georeference.hpp"
 #include "umbrage/study/ledger.hpp"
@@ -28,6 +29,13 @@ bool readsClock(const Rule& rule) {
   for (const Requirement& r : rule.requirements)
     for (const Measure& m : r.anyOf)
       if (m.window.from || m.window.to) return true;
+  return false;
+}
+
+bool readsLegalClock(const Rule& rule) {
+  for (const Requirement& r : rule.requirements)
+    for (const Measure& m : r.anyOf)
+      if ((m.window.from || m.window.to) && m.window.clock != Clock::solar) return true;
   return false;
 }
 
@@ -152,8 +160,7 @@ Result<void> checkCounts(const Rule& rule, const Conventions& conventions) {
       bool counts = false;
       for (const auto& date : detail::datesOf(m.days, conventions.calendar)) {
         const auto day = detail::dayOf(m, date, conventions);
-        if (!day) return tl::unexpected(day.error());
-        if ((counts = *day && !(*day)->counting.empty())) break;
+        if ((counts = day && !day->counting.empty())) break;
       }
       if (!counts)
         return fail(
@@ -161,6 +168,17 @@ Result<void> checkCounts(const Rule& rule, const Conventions& conventions) {
             fmt::format("the sun counts at no time of what '{}' looks at: is --tz the clock of this place?", r.name));
     }
   return {};
+}
+
+/// What clocks that are put forward or back do to the windows of a rule, each once.
+std::vector<std::string> clockNotes(const Rule& rule, const Conventions& conventions) {
+  std::vector<std::string> notes;
+  for (const Requirement& r : rule.requirements)
+    for (const Measure& m : r.anyOf)
+      for (const auto& date : detail::datesOf(m.days, conventions.calendar))
+        for (std::string& note : detail::windowNotes(m.window, date, conventions.calendar))
+          if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
+  return notes;
 }
 
 /// A clock that is hours off the sun's is mostly another place's.
@@ -176,6 +194,21 @@ std::optional<std::string> oddClock(const VerifyRequest& request) {
   if (std::abs(off) < kOddClockHours) return std::nullopt;
   return fmt::format("the clock {} is {:.1f} h away from the sun's at this longitude: is it the clock of this place?",
                      request.zone.name, std::abs(off));
+}
+
+std::vector<std::string> warningsOf(const Rule& rule, bool hasBaseline, const VerifyRequest& request,
+                                    const Conventions& conventions) {
+  std::vector<std::string> warnings;
+  if (auto odd = oddClock(request)) warnings.push_back(std::move(*odd));
+  for (const Requirement& r : rule.requirements)
+    if (r.former && !hasBaseline)
+      warnings.push_back(
+          fmt::format("without --baseline nobody knows what was there before: '{}' is held without its {:g} times",
+                      r.name, *r.former));
+  if (request.zone.kind == sun::Zone::Kind::solar && readsLegalClock(rule))
+    warnings.emplace_back("the rule reads the legal clock, which --tz solar does not tell: mean solar time is taken");
+  for (std::string& note : clockNotes(rule, conventions)) warnings.push_back(std::move(note));
+  return warnings;
 }
 
 }  // namespace
@@ -233,54 +266,33 @@ Result<Verdict> verify(const scene::Scene& scene, const scene::Scene* baseline, 
     if (!switches) return tl::unexpected(switches.error());
     verdict.switches = std::move(*switches);
   }
-  if (auto odd = oddClock(request)) verdict.warnings.push_back(std::move(*odd));
+  verdict.warnings = warningsOf(rule, baseline != nullptr, request, conventions);
   verdict.ledger = ledgerOf(scene, baseline, rule, targets, request, conventions);
-  for (const Requirement& r : rule.requirements)
-    if (r.former && baseline == nullptr)
-      verdict.warnings.push_back(
-          fmt::format("without --baseline nobody knows what was there before: '{}' is held without its {:g} times",
-                      r.name, *r.former));
-  if (request.zone.kind == sun::Zone::Kind::solar && readsClock(rule))
-    for (const Requirement& r : rule.requirements)
-      if (r.anyOf.front().window.clock != Clock::solar && verdict.warnings.empty())
-        verdict.warnings.push_back(
-            "the rule reads the legal clock, which --tz solar does not tell: mean solar time is taken");
   return verdict;
 }
 
-Result<std::vector<study::TimeSpan>> countingOn(const Rule& rule, const Measure& measure,
-                                                std::chrono::year_month_day date, const VerifyRequest& request) {
-  auto day = detail::dayOf(measure, date, detail::conventionsOf(rule, request));
-  if (!day) return tl::unexpected(day.error());
-  return *day ? (*day)->counting : std::vector<study::TimeSpan>();
+Deciding decidingOf(const Verdict& verdict) {
+  UMBRAGE_CHECK(!verdict.findings.empty(), "a verdict has findings");
+  constexpr double kDayHours = 24.0;
+  const auto marginOf = [](const Finding& f) { return f.newShare ? kDayHours * f.margin : f.margin; };
+  const auto first = std::min_element(
+      verdict.findings.begin(), verdict.findings.end(),
+      [&](const Finding& a, const Finding& b) { return a.passes != b.passes ? !a.passes : marginOf(a) < marginOf(b); });
+  Deciding deciding{static_cast<std::size_t>(first - verdict.findings.begin()), 0, std::nullopt};
+  if (!first->deciding) return deciding;
+  const ReceiverResult& receiver = first->receivers[*first->deciding];
+  deciding.measure = receiver.measure, deciding.date = receiver.date;
+  return deciding;
+}
+
+std::vector<study::TimeSpan> countingOn(const Rule& rule, const Measure& measure, std::chrono::year_month_day date,
+                                        const VerifyRequest& request) {
+  const auto day = detail::dayOf(measure, date, detail::conventionsOf(rule, request));
+  return day ? day->counting : std::vector<study::TimeSpan>();
 }
 
 std::vector<std::chrono::year_month_day> datesOf(const Measure& measure, const VerifyRequest& request) {
   return detail::datesOf(measure.days, {request.place, request.zone, request.date});
-}
-
-Result<double> shadowReach(double above, const Rule& rule, const VerifyRequest& request) {
-  double reach = 0.0;
-  const Conventions conventions = detail::conventionsOf(rule, request);
-  for (const Requirement& r : rule.requirements)
-    for (const Measure& m : r.anyOf)
-      for (const auto& date : detail::datesOf(m.days, conventions.calendar)) {
-        const auto day = detail::dayOf(m, date, conventions);
-        if (!day) return tl::unexpected(day.error());
-        if (!*day) continue;
-        // A point so far off is in shadow only while the sun is lower; looked at every minute, one minute short.
-        std::vector<double> lengths;
-        for (const study::TimeSpan& span : (*day)->counting)
-          for (auto t = span.from; t < span.to; t += std::chrono::minutes(1)) {
-            const Vec3 s = (*day)->course.towards(t);
-            lengths.push_back(std::hypot(s.x, s.y) / std::max(s.z, 1e-6));
-          }
-        std::sort(lengths.rbegin(), lengths.rend());
-        const auto minutes =
-            static_cast<std::size_t>(std::max<std::int64_t>(2, m.threshold / std::chrono::minutes(1)) - 2);
-        if (minutes < lengths.size()) reach = std::max(reach, lengths[minutes]);
-      }
-  return std::max(0.0, above) * reach;
 }
 
 }  // namespace umbrage::rules

@@ -45,7 +45,8 @@ struct ReceiverResult {
 /// 1. passes: the part `share` of the receivers passes and is at least `wanted`; with Requirement::mostNew: `newShare` is at most that.
 struct Finding {
   std::size_t requirement = 0;  ///< of Rule::requirements
-  std::string group;
+  std::size_t groupIndex = 0;   ///< of TargetSet::groups
+  std::string group;            ///< its name; several may have one
   bool passes = false;
   double share = 0.0, wanted = 1.0;   ///< of the receivers, by area
   std::optional<double> formerShare;  ///< that passes in the baseline
@@ -79,22 +80,30 @@ struct Verdict {
 /// Holds a scene against a rule. Times are exact (study::ExactHours), nothing is sampled in time; in space the targets are the samples.
 /// 1. The verdict passes where all findings do.
 /// 2. Requirements without receivers in their band have no finding; a rule without any finding is an error.
-/// Errors: usage (a rule of the other hemisphere, a baseline missing, a least altitude missing, no targets, times that a clock
-/// leaves out), cancelled.
+/// Errors: usage (a rule of the other hemisphere, a baseline missing, a least altitude missing, no targets), cancelled.
 [[nodiscard]] Result<Verdict> verify(const scene::Scene& scene, const scene::Scene* baseline, const Rule& rule,
                                      const TargetSet& targets, const VerifyRequest& request,
                                      const ProgressSink& progress = {});
 
-/// When the sun counts for a measure of a rule on a day: its window, the sun up and high enough. Empty where never. Errors: usage (the clock).
-[[nodiscard]] Result<std::vector<study::TimeSpan>> countingOn(const Rule& rule, const Measure& measure,
-                                                              std::chrono::year_month_day date,
-                                                              const VerifyRequest& request);
+/// What a verdict hangs on.
+struct Deciding {
+  std::size_t finding = 0;                          ///< of Verdict::findings
+  std::size_t measure = 0;                          ///< of its requirement's anyOf
+  std::optional<std::chrono::year_month_day> date;  ///< nothing where all days are added up (mostNew)
+};
+/// The finding with the least to spare, those that fail before those that pass; a share of new shadow counts as that share of a day. Its measure and
+/// day are those of the receiver that decides. REQUIRES: the verdict has findings.
+[[nodiscard]] Deciding decidingOf(const Verdict& verdict);
+
+/// When the sun counts for a measure of a rule on a day: its window, the sun up and high enough. Empty where never.
+[[nodiscard]] std::vector<study::TimeSpan> countingOn(const Rule& rule, const Measure& measure,
+                                                      std::chrono::year_month_day date, const VerifyRequest& request);
 
 /// The dates of a measure, ascending.
 [[nodiscard]] std::vector<std::chrono::year_month_day> datesOf(const Measure& measure, const VerifyRequest& request);
 
-/// How far the shadow of something `above` metres over a plane can last as long as the rule's shortest threshold, in metres. REQUIRES: measures of
-/// shadow. Errors: usage (the clock).
-[[nodiscard]] Result<double> shadowReach(double above, const Rule& rule, const VerifyRequest& request);
+/// How far, in metres, the shadow of what rises `above` metres over a plane can turn what a rule says of a receiver on it: beyond, its shadow is
+/// that long for too short a time, whatever its shape. Ends with the rule's bands; where a share of the receivers is asked for, all of the band.
+[[nodiscard]] double shadowReach(double above, const Rule& rule, const VerifyRequest& request);
 
 }  // namespace umbrage::rules

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "umbrage/geo/projection.hpp"
 #include "umbrage/outline/combine.hpp"
@@ -95,6 +96,51 @@ TEST(Verify, requestsThatMakeNoSenseAreRefused) {
   refused(*findRule("china-dahan-2"), beijing, {}, "no receivers");
   const TargetSet onlyPoints = window();
   refused(*findRule("japan-3-2"), beijing, onlyPoints, "no receiver lies where");
+}
+
+TEST(Verify, aMomentThatClocksLeaveOutIsNoFault) {
+  Rule rule = *findRule("china-dahan-2");
+  Measure& m = rule.requirements[0].anyOf[0];
+  m.days = {Days::Kind::dates, {std::chrono::March / 29}, {}};
+  m.window = {Clock::zone, 2h + 30min, 12h, {}, {}};
+  const VerifyRequest vienna{place(48.2, 16.37), *sun::parseZone("Europe/Vienna"), kDay};
+  const auto v = verify(sceneOf(tower(9)), nullptr, rule, window(), vienna);
+  ASSERT_TRUE(v) << v.error().text();
+  ASSERT_EQ(v->warnings.size(), 1u);
+  EXPECT_THAT(v->warnings[0], HasSubstr("clocks were put forward from 02:00 to 03:00"));
+}
+
+// Of two days one has more sun, and one is nearer to what it was before: it is the latter that suits.
+TEST(Verify, theBestDayIsThatOfTheWholeRule) {
+  const sun::Place london = place(51.5, -0.1);
+  Rule rule = *findRule("bre209");
+  Requirement& r = rule.requirements[0];
+  r.anyOf[0].days = {Days::Kind::dates, {std::chrono::January / 10, std::chrono::June / 21}, {}};
+  r.anyOf[0].threshold = 4h;
+  r.share = 0.9, r.former = 0.95;
+  const auto garden = areaTargets({{"garden", rectangle({-10, 0}, {10, 24})}}, sceneOf({}), 2.0, 0.0);
+  ASSERT_TRUE(garden);
+  // A wall that keeps the garden dark in winter, and a roof that is new and shades some of it in summer.
+  const std::vector<Block> old = {{{-400, -6, 0}, {400, -2, 12}}};
+  std::vector<Block> now = old;
+  now.push_back({{-14, -1, 1}, {14, 6, 1.5}, "roof"});
+  const scene::Scene before = sceneOf(old), after = sceneOf(now);
+  const auto on = [&](std::vector<std::chrono::month_day> dates, bool best) {
+    Rule one = rule;
+    one.requirements[0].anyOf[0].days.dates = std::move(dates), one.requirements[0].anyOf[0].days.best = best;
+    const auto v = verify(after, &before, one, *garden, {london, kSolar, kDay, Sensitivity::never});
+    EXPECT_TRUE(v) << (v ? "" : v.error().text());
+    return v->findings.at(0);
+  };
+  const Finding winter = on({std::chrono::January / 10}, false), summer = on({std::chrono::June / 21}, false);
+  ASSERT_GT(summer.share, winter.share);
+  ASSERT_FALSE(summer.passes) << summer.share << ' ' << *summer.formerShare;
+  ASSERT_TRUE(winter.passes) << winter.share << ' ' << *winter.formerShare;
+  const Finding best = on({std::chrono::January / 10, std::chrono::June / 21}, true);
+  EXPECT_TRUE(best.passes);
+  EXPECT_EQ(best.receivers.at(*best.deciding).date, std::chrono::year(2026) / 1 / 10);
+  EXPECT_EQ(best.formerShare, winter.formerShare);
+  EXPECT_EQ(best.share, winter.share);
 }
 
 TEST(Verify, nothingButSkyAndNoSunAtAll) {
@@ -199,16 +245,123 @@ TEST(Targets, shadowsEndWithinTheirReach) {
   const scene::Scene house = sceneOf({{{-20, -6, 0}, {20, 6, 24}}});
   const VerifyRequest request{tokyo, *sun::parseZone("Asia/Tokyo"), kDay, Sensitivity::never};
   const auto reach = shadowReach(20.0, *findRule("japan-4-2.5"), request);
-  ASSERT_TRUE(reach);
-  EXPECT_GT(*reach, 20.0);
-  EXPECT_LT(*reach, 20.0 * 12.0);
+  EXPECT_GT(reach, 20.0);
+  EXPECT_LT(reach, 20.0 * 12.0);
   TargetSet beyond{{}, {"site"}, 0.0, "beyond"};
   for (double x = -150; x <= 150; x += 5)
-    for (const double y : {*reach + 6.5, *reach + 20.0})
+    for (const double y : {reach + 6.5, reach + 20.0})
       beyond.targets.push_back({{{x, y, 4.0}, {0, 0, 1}}, 1.0, 0, y - 6.0});
   const auto v = verify(house, nullptr, *findRule("japan-4-2.5"), beyond, request);
   ASSERT_TRUE(v);
   EXPECT_TRUE(v->passes);
+}
+
+// A rule about sun around a site: shadow matters while the rest of the day is less than it wants.
+Rule sunAround(double hours, std::optional<double> to) {
+  Rule rule = *findRule("japan-4-2.5");
+  rule.requirements.erase(rule.requirements.begin());
+  Requirement& r = rule.requirements[0];
+  r.band = Band{5.0, to};
+  r.anyOf[0].statistic = Statistic::sun, r.anyOf[0].comparison = Comparison::atLeast;
+  r.anyOf[0].threshold = std::chrono::milliseconds(std::llround(hours * 3.6e6));
+  return rule;
+}
+
+// How far from a long wall, 20 m over the plane, the last receiver fails.
+double lastFailing(const Rule& rule, const VerifyRequest& request, double within) {
+  const scene::Scene wall = sceneOf({{{-5000, -1, 0}, {5000, 0, 24}}});
+  TargetSet line{{}, {"site"}, 0.0, "north of it"};
+  for (double y = 5.5; y < within; ++y) line.targets.push_back({{{0, y, 4.0}, {0, 0, 1}}, 1.0, 0, y});
+  const auto v = verify(wall, nullptr, rule, line, request);
+  EXPECT_TRUE(v) << (v ? "" : v.error().text());
+  double last = 0.0;
+  for (const ReceiverResult& r : v->findings[0].receivers)
+    if (!r.passes) last = std::max(last, line.targets[r.target].fromSite);
+  return last;
+}
+
+TEST(Targets, shadowReachesWhereSunIsAskedForToo) {
+  const VerifyRequest request{place(35.68, 139.7), *sun::parseZone("Asia/Tokyo"), kDay, Sensitivity::never};
+  double before = 0.0;
+  for (const double hours : {1.0, 4.0, 7.0}) {
+    Rule rule = sunAround(hours, std::nullopt);
+    const double reach = shadowReach(20.0, rule, request), last = lastFailing(rule, request, 1.5 * reach + 20.0);
+    EXPECT_GT(last, before) << hours;  // the more is asked for, the farther
+    EXPECT_LE(last, reach) << hours;
+    EXPECT_GT(last, 0.4 * reach) << hours;  // of a wall shadows are shorter than of the corner of a tower
+    before = last;
+    rule.requirements[0].anyOf[0].statistic = Statistic::longestSun;
+    EXPECT_LE(lastFailing(rule, request, 1.5 * reach + 20.0), shadowReach(20.0, rule, request)) << hours;
+    EXPECT_GE(shadowReach(20.0, rule, request), reach) << hours;
+  }
+  // A moment in the middle of the day breaks a run of five of its eight hours.
+  Rule run = sunAround(5.0, std::nullopt);
+  run.requirements[0].anyOf[0].statistic = Statistic::longestSun;
+  EXPECT_GT(shadowReach(20.0, run, request), shadowReach(20.0, sunAround(5.0, std::nullopt), request) * 0.999);
+  EXPECT_EQ(shadowReach(20.0, sunAround(7.0, 30.0), request), 30.0);
+  EXPECT_EQ(shadowReach(20.0, sunAround(9.0, std::nullopt), request), 0.0);  // no receiver has so much
+  Rule share = sunAround(1.0, 70.0);
+  share.requirements[0].share = 0.5;
+  EXPECT_EQ(shadowReach(20.0, share, request), 70.0);  // all of the band is the whole
+}
+
+TEST(Targets, bandsThatBeginAtTheSite) {
+  const outline::Region site = rectangle({-10, -10}, {10, 10});
+  Rule rule = *findRule("japan-4-2.5");
+  rule.requirements[0].band = Band{0.0, 10.0}, rule.requirements[1].band.reset();
+  const auto set = siteTargets({"site", site}, rule, sceneOf({}), {4.0, 0.5, 2.0, 30.0});
+  ASSERT_TRUE(set) << set.error().text();
+  double nearest = 1e9, area = 0.0;
+  for (const Target& t : set->targets) nearest = std::min(nearest, t.fromSite), area += t.weight;
+  EXPECT_LE(nearest, 1.0);
+  EXPECT_NEAR(area, 80.0 * 30 + M_PI * 900, 60.0);
+}
+
+TEST(Targets, partsMayReachBeyondTheSite) {
+  const Area site{"site", rectangle({-10, -10}, {10, 10})};
+  EXPECT_EQ(overhang(sceneOf({{{-4, -4, 0}, {4, 4, 9}}}), site), 0.0);
+  EXPECT_NEAR(overhang(sceneOf({{{-4, -4, 0}, {13, 14, 9}}, {{50, 0, 0}, {90, 4, 9}}}), site), 5.0, 1e-9);
+}
+
+// Before any memory is used.
+TEST(Targets, tooManyPointsAreRefused) {
+  const outline::Region site = rectangle({-10, -10}, {10, 10});
+  const auto refused = [](const Result<TargetSet>& set, const char* says) {
+    ASSERT_FALSE(set);
+    EXPECT_EQ(set.error().code, ErrorCode::usage);
+    EXPECT_THAT(set.error().message, HasSubstr(says));
+  };
+  const Rule japan = *findRule("japan-4-2.5");
+  refused(siteTargets({"site", site}, japan, sceneOf({}), {4.0, 1e-9, 4e-9, 30.0}), "take larger steps (--grid)");
+  refused(siteTargets({"site", site}, japan, sceneOf({}), {4.0, 0.25, 1.0, 1e6}), "--min-altitude");
+  refused(areaTargets(std::vector<Area>(20, {"a", rectangle({0, 0}, {1000, 1000})}), sceneOf({}), 1.0, 0.0), "--grid");
+  refused(areaTargets({{"a", rectangle({0, 0}, {1e-9, 1e6})}}, sceneOf({}), 1e-3, 0.0), "--grid");
+}
+
+// The grid's rows go through a polygon of many corners as outline::covers says of each cell.
+TEST(Targets, middlesLieWithinZigzags) {
+  outline::Ring ring;
+  for (int i = 0; i <= 400; ++i) ring.push_back({i % 2 == 0 ? 0.0 : 37.0 + i % 7, 0.25 * i});
+  for (int i = 400; i >= 0; --i) ring.push_back({i % 2 == 0 ? 3.1 : 41.0 + i % 7, 0.25 * i + 0.05});
+  outline::Region zigzag;
+  zigzag.polygons.push_back({ring, {{{5, 20}, {5, 30}, {9, 30}, {9, 20}}}});
+  zigzag.area = 1.0;
+  const auto set = areaTargets({{"zigzag", zigzag}}, sceneOf({}), 0.4, 0.0);
+  ASSERT_TRUE(set);
+  std::set<std::pair<double, double>> found;
+  for (const Target& t : set->targets) {
+    EXPECT_TRUE(outline::covers(zigzag, Vec2(t.receiver.position)));
+    found.insert({t.receiver.position.x, t.receiver.position.y});
+  }
+  EXPECT_EQ(found.size(), set->targets.size());
+  std::size_t expected = 0;
+  const Vec2 low(0.0, 0.0), high(47.0, 100.05);
+  const Vec2 count = glm::ceil((high - low) / 0.4 - 1e-9);
+  for (int j = 0; j < int(count.y); ++j)
+    for (int i = 0; i < int(count.x); ++i)
+      expected += outline::covers(zigzag, 0.5 * (low + high) + 0.4 * (Vec2(i + 0.5, j + 0.5) - 0.5 * count)) ? 1 : 0;
+  EXPECT_NEAR(double(found.size()), double(expected), 2.0);
+  EXPECT_GT(expected, 1000u);
 }
 
 class AreaFiles : public testing::Test {

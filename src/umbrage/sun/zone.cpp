@@ -107,21 +107,41 @@ std::string clockText(date::sys_seconds instant, seconds offset) {
   return timeText(local - date::floor<date::days>(local));
 }
 
-Result<Moment> instantOfNamed(const Zone& zone, const ClockTime& clock) {
-  const auto midnight = std::chrono::sys_days(clock.date).time_since_epoch();
-  const LocalSeconds local(std::chrono::floor<seconds>(midnight + clock.time));
-  const milliseconds rest = clock.time - std::chrono::floor<seconds>(clock.time);
-  date::days shift(0);
-  const auto info = localInfo(*date::locate_zone(zone.name), local, shift);
-  const auto asked = fmt::format("{} on {}", timeText(clock.time), dateText(clock.date));
-  if (info.result == date::local_info::nonexistent)
-    return fail(ErrorCode::usage, fmt::format("{} does not exist in {}: clocks were put forward from {} to {}", asked,
-                                              zone.name, clockText(info.first.end, info.first.offset),
-                                              clockText(info.second.begin, info.second.offset)));
-  Moment moment{Instant(local.time_since_epoch() - info.first.offset + rest), std::nullopt};
-  if (info.result == date::local_info::ambiguous)
-    moment.warning = fmt::format("{} occurs twice in {}: taken as the first, {} (UTC{}), before clocks were put back",
-                                 asked, zone.name, info.first.abbrev, offsetText(info.first.offset));
+// A reading of a named zone's clock, and what is known about it.
+struct NamedReading {
+  std::string asked;
+  LocalSeconds local;
+  milliseconds rest{0};
+  date::days shift{0};  // to years whose rules are tabled
+  date::local_info info;
+};
+
+NamedReading readNamed(const Zone& zone, const ClockTime& clock) {
+  NamedReading r;
+  r.local =
+      LocalSeconds(std::chrono::floor<seconds>(std::chrono::sys_days(clock.date).time_since_epoch() + clock.time));
+  r.rest = clock.time - std::chrono::floor<seconds>(clock.time);
+  r.info = localInfo(*date::locate_zone(zone.name), r.local, r.shift);
+  r.asked = fmt::format("{} on {}", timeText(clock.time), dateText(clock.date));
+  return r;
+}
+
+bool isLeftOut(const NamedReading& r) { return r.info.result == date::local_info::nonexistent; }
+
+std::string leftOutText(const NamedReading& r, const Zone& zone) {
+  return fmt::format("{} does not exist in {}: clocks were put forward from {} to {}", r.asked, zone.name,
+                     clockText(r.info.first.end, r.info.first.offset),
+                     clockText(r.info.second.begin, r.info.second.offset));
+}
+
+Moment momentOf(const NamedReading& r, const Zone& zone, Twice twice) {
+  const bool isTwice = r.info.result == date::local_info::ambiguous, second = isTwice && twice == Twice::second;
+  const date::sys_info& taken = second ? r.info.second : r.info.first;
+  Moment moment{Instant(r.local.time_since_epoch() - taken.offset + r.rest), std::nullopt};
+  if (isTwice)
+    moment.warning =
+        fmt::format("{} occurs twice in {}: taken as the {}, {} (UTC{}), {} clocks were put back", r.asked, zone.name,
+                    second ? "second" : "first", taken.abbrev, offsetText(taken.offset), second ? "after" : "before");
   return moment;
 }
 
@@ -237,7 +257,18 @@ Result<Moment> instantOf(const Zone& zone, const Place& place, const ClockTime& 
   if (zone.kind == Zone::Kind::solar) return Moment{instantOfSolar(place, clock), std::nullopt};
   if (zone.kind == Zone::Kind::fixed)
     return Moment{std::chrono::sys_days(clock.date) + clock.time - zone.offset, std::nullopt};
-  return instantOfNamed(zone, clock);
+  const NamedReading reading = readNamed(zone, clock);
+  if (isLeftOut(reading)) return fail(ErrorCode::usage, leftOutText(reading, zone));
+  return momentOf(reading, zone, Twice::first);
+}
+
+Moment nearestInstantOf(const Zone& zone, const Place& place, const ClockTime& clock, Twice twice) {
+  if (zone.kind != Zone::Kind::named) return *instantOf(zone, place, clock);
+  const NamedReading reading = readNamed(zone, clock);
+  if (!isLeftOut(reading)) return momentOf(reading, zone, twice);
+  const date::sys_seconds jump = reading.info.first.end + reading.shift;
+  return {Instant(jump.time_since_epoch()),
+          leftOutText(reading, zone) + "; taken as the moment at which they were put forward"};
 }
 
 ClockReading clockAt(const Zone& zone, const Place& place, Instant instant) {

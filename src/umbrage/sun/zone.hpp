@@ -67,6 +67,13 @@ inline constexpr int kLastYear = 2100;
 /// Errors: usage for a reading that clocks put forward leave out.
 [[nodiscard]] Result<Moment> instantOf(const Zone& zone, const Place& place, const ClockTime& clock);
 
+/// Which of the two moments a reading means that occurs twice.
+enum class Twice { first, second };
+
+/// As instantOf, for borders of a stretch of time that must not fail: a reading that clocks put forward leave out is the moment at which they
+/// are put forward, and one that occurs twice is the one asked for. The warning says what was taken.
+[[nodiscard]] Moment nearestInstantOf(const Zone& zone, const Place& place, const ClockTime& clock, Twice twice);
+
 /// What the clock of `zone` shows at `instant`.
 [[nodiscard]] ClockReading clockAt(const Zone& zone, const Place& place, Instant instant);
 

@@ -96,6 +96,27 @@ TEST(LocalTime, TakesTheFirstOfTwoAndSaysSo) {
   EXPECT_FALSE(instantOf(*parseZone("Europe/Vienna"), kVienna, {*parseDate("2026-10-25"), 3h})->warning);
 }
 
+TEST(LocalTime, BordersAreTakenFromTheMomentClocksJumpTo) {
+  const Zone vienna = *parseZone("Europe/Vienna");
+  const auto nearest = [&](const char* date, std::chrono::milliseconds time, Twice twice) {
+    return nearestInstantOf(vienna, kVienna, {*parseDate(date), time}, twice);
+  };
+  for (const char* year : {"2026-03-29", "2049-03-28"}) {  // the second beyond the table
+    const Moment gap = nearest(year, 2h + 30min, Twice::first);
+    EXPECT_EQ(gap.instant, utc(year, "01:00"));
+    ASSERT_TRUE(gap.warning);
+    EXPECT_THAT(*gap.warning, HasSubstr("put forward from 02:00 to 03:00"));
+  }
+  EXPECT_EQ(nearest("2026-10-25", 2h + 30min, Twice::first).instant, utc("2026-10-25", "00:30"));
+  const Moment second = nearest("2026-10-25", 2h + 30min, Twice::second);
+  EXPECT_EQ(second.instant, utc("2026-10-25", "01:30"));
+  EXPECT_THAT(*second.warning, HasSubstr("taken as the second, CET"));
+  EXPECT_EQ(nearest("2026-10-25", 12h, Twice::second).instant, utc("2026-10-25", "11:00"));
+  EXPECT_FALSE(nearest("2026-10-25", 12h, Twice::second).warning);
+  EXPECT_EQ(nearestInstantOf(*parseZone("+01:00"), kVienna, {*parseDate("2026-03-29"), 2h}, Twice::first).instant,
+            utc("2026-03-29", "01:00"));
+}
+
 TEST(LocalTime, KeepsTheRulesAfterTheTableEnds) {
   EXPECT_EQ(instantAt("Europe/Vienna", "2050-07-01", "12:00"), utc("2050-07-01", "10:00"));
   EXPECT_EQ(instantAt("Europe/Vienna", "2050-01-01", "12:00"), utc("2050-01-01", "11:00"));

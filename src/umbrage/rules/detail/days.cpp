@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "umbrage/base/check.hpp"
 #include "umbrage/sun/sun_path.hpp"
 
 namespace umbrage::rules::detail {
@@ -63,6 +64,17 @@ sun::Zone legalOf(Clock clock, const Calendar& calendar) {
   return clock == Clock::standard ? standardOf(calendar) : calendar.zone;
 }
 
+// By the clock: all of what it shows between them, also where it shows a time twice or not at all.
+std::pair<sun::Moment, sun::Moment> bordersOf(const Window& window, year_month_day date, const Calendar& calendar,
+                                              bool clockSwitched) {
+  const sun::Zone zone = zoneOf(window.clock, calendar, clockSwitched);
+  const auto at = [&](milliseconds time, sun::Twice twice) {
+    return sun::nearestInstantOf(zone, calendar.place, {date, time}, twice);
+  };
+  return {at(window.from.value_or(milliseconds(0)), sun::Twice::first),
+          at(window.to.value_or(std::chrono::hours(24)), sun::Twice::second)};
+}
+
 }  // namespace
 
 sun::Instant instantOfLongitude(Angle longitude, std::chrono::year year) {
@@ -102,25 +114,27 @@ sun::Zone zoneOf(Clock clock, const Calendar& calendar, bool switched) {
   return legalOf(clock, calendar);
 }
 
-Result<std::optional<TimeSpan>> windowOn(const Window& window, year_month_day date, const Calendar& calendar,
-                                         bool clockSwitched) {
-  const sun::Zone zone = zoneOf(window.clock, calendar, clockSwitched);
-  TimeSpan span{};
-  const milliseconds from = window.from.value_or(milliseconds(0)), to = window.to.value_or(std::chrono::hours(24));
-  for (const auto& [clock, instant] : {std::pair(from, &span.from), std::pair(to, &span.to)}) {
-    const auto moment = sun::instantOf(zone, calendar.place, {date, clock});
-    if (!moment) return tl::unexpected(moment.error());
-    *instant = moment->instant;
-  }
+std::vector<std::string> windowNotes(const Window& window, year_month_day date, const Calendar& calendar) {
+  const auto [from, to] = bordersOf(window, date, calendar, false);
+  std::vector<std::string> notes;
+  if (window.from && from.warning) notes.push_back(*from.warning);
+  if (window.to && to.warning) notes.push_back(*to.warning);
+  return notes;
+}
+
+std::optional<TimeSpan> windowOn(const Window& window, year_month_day date, const Calendar& calendar,
+                                 bool clockSwitched) {
+  const auto [from, to] = bordersOf(window, date, calendar, clockSwitched);
+  TimeSpan span{from.instant, to.instant};
   if (window.afterSunrise || window.beforeSunset) {
     const auto day = sun::sunDay(calendar.place, {sun::Zone::Kind::solar, "solar", {}}, date, {kAlmanacHorizon});
-    if (!day) return tl::unexpected(day.error());
-    if (day->kind == sun::SunDay::Kind::alwaysDown) return std::optional<TimeSpan>();
+    UMBRAGE_CHECK(day, "the true sun has a noon every day");
+    if (day->kind == sun::SunDay::Kind::alwaysDown) return std::nullopt;
     if (window.afterSunrise && day->rise) span.from = std::max(span.from, *day->rise + *window.afterSunrise);
     if (window.beforeSunset && day->set) span.to = std::min(span.to, *day->set - *window.beforeSunset);
   }
-  if (span.from >= span.to) return std::optional<TimeSpan>();
-  return std::optional(span);
+  if (span.from >= span.to) return std::nullopt;
+  return span;
 }
 
 Spans countingTimes(const study::SunCourse& course, const std::optional<Angle>& leastAltitude) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "umbrage/rules/detail/spans.hpp"
@@ -27,9 +28,14 @@ struct Calendar {
 /// calendar's own zone is that of the sun, its legal clock is mean solar time.
 [[nodiscard]] sun::Zone zoneOf(Clock clock, const Calendar& calendar, bool switched);
 
-/// The window of a day; nothing where its limits leave nothing. Errors: usage, for times that the clock leaves out.
-[[nodiscard]] Result<std::optional<study::TimeSpan>> windowOn(const Window& window, std::chrono::year_month_day date,
-                                                              const Calendar& calendar, bool clockSwitched);
+/// The window of a day; nothing where its limits leave nothing. From a moment that clocks leave out it begins, or ends, when they are put
+/// forward; from the first to the second of moments that come twice.
+[[nodiscard]] std::optional<study::TimeSpan> windowOn(const Window& window, std::chrono::year_month_day date,
+                                                      const Calendar& calendar, bool clockSwitched);
+
+/// What must be known about the moments that a window names on a day: those that clocks leave out or show twice.
+[[nodiscard]] std::vector<std::string> windowNotes(const Window& window, std::chrono::year_month_day date,
+                                                   const Calendar& calendar);
 
 /// When the sun of a course counts: it is up, and as high as that.
 [[nodiscard]] Spans countingTimes(const study::SunCourse& course, const std::optional<Angle>& leastAltitude);

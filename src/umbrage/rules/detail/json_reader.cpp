@@ -3,11 +3,103 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 
 namespace umbrage::rules::detail {
 namespace {
 
 constexpr int kDeepest = 64;  // no rule and no map of areas is nested deeper
+
+std::string below(const std::string& path, std::string_view key) {
+  return path.empty() ? std::string(key) : key.empty() ? path : fmt::format("{}.{}", path, key);
+}
+
+/// Goes through a document and remembers the first fault, and at which member it stands.
+class StrictWalk final : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  [[nodiscard]] const std::string& fault() const { return fault_; }
+
+  bool null() override { return value(); }
+  bool boolean(bool) override { return value(); }
+  bool number_integer(number_integer_t) override { return value(); }
+  bool number_unsigned(number_unsigned_t) override { return value(); }
+  bool number_float(number_float_t, const string_t&) override { return value(); }
+  bool string(string_t&) override { return value(); }
+  bool binary(binary_t&) override { return value(); }
+
+  bool start_object(std::size_t) override { return open(false); }
+  bool start_array(std::size_t) override { return open(true); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+
+  bool key(string_t& name) override {
+    Level& level = levels_.back();
+    level.key = name;
+    if (!level.keys.insert(name).second) fault_ = path() + ": is there twice; leave one of them out";
+    return fault_.empty();
+  }
+  bool parse_error(std::size_t byte, const std::string&, const nlohmann::json::exception& problem) override {
+    constexpr int kOutOfRange = 406;
+    const std::string at = path();
+    if (problem.id == kOutOfRange)
+      fault_ = at + ": the number is too large";
+    else
+      fault_ = fmt::format("is not JSON from byte {} on{}", byte, at.empty() ? "" : ", in " + at);
+    return false;
+  }
+
+ private:
+  struct Level {
+    bool array = false;
+    std::size_t index = 0;
+    std::string key;
+    std::set<std::string> keys;
+  };
+  bool open(bool array) {
+    levels_.push_back({array, 0, {}, {}});
+    return true;
+  }
+  bool close() {
+    levels_.pop_back();
+    return value();
+  }
+  bool value() {
+    if (!levels_.empty()) ++levels_.back().index;
+    return true;
+  }
+  [[nodiscard]] std::string path() const {
+    std::string path;
+    for (const Level& level : levels_)
+      if (level.array)
+        path += fmt::format("[{}]", level.index);
+      else
+        path = below(path, level.key);
+    return path;
+  }
+
+  std::vector<Level> levels_;
+  std::string fault_;
+};
+
+Result<void> checkDepth(std::string_view text, const std::string& where) {
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted) {
+      if (c == '\\') ++i;
+      if (c == '"') quoted = false;
+    } else if (c == '"') {
+      quoted = true;
+    } else if (c == '{' || c == '[') {
+      if (++depth > kDeepest) return fail(ErrorCode::input, "is nested too deeply", where);
+    } else if (c == '}' || c == ']') {
+      --depth;
+    }
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -18,18 +110,18 @@ JsonReader::JsonReader(const Json& object, std::string path, std::string& fault)
 
 void JsonReader::wrong(const std::string& key, const std::string& what) {
   if (!fault_->empty()) return;
-  const std::string place = path_.empty() ? key : key.empty() ? path_ : path_ + "." + key;
+  const std::string place = below(path_, key);
   *fault_ = place.empty() ? what : place + ": " + what;
 }
 
 const JsonReader::Json* JsonReader::find(const char* key) {
-  asked_.emplace_back(key);
+  if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.emplace_back(key);
   if (!object_->is_object()) return nullptr;
   const auto found = object_->find(key);
   return found == object_->end() ? nullptr : &*found;
 }
 
-bool JsonReader::has(const char* key) { return object_->is_object() && object_->contains(key); }
+bool JsonReader::has(const char* key) { return find(key) != nullptr; }
 
 std::string JsonReader::text(const char* key, bool wanted) {
   const Json* value = find(key);
@@ -53,6 +145,15 @@ std::optional<double> JsonReader::number(const char* key, double least, double m
   return std::nullopt;
 }
 
+std::optional<int> JsonReader::whole(const char* key, int least, int most) {
+  const Json* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  const double number = value->is_number() ? value->get<double>() : double(most) + 1.0;
+  if (number >= least && number <= most && number == std::floor(number)) return static_cast<int>(number);
+  wrong(key, fmt::format("a whole number from {} to {} is wanted", least, most));
+  return std::nullopt;
+}
+
 bool JsonReader::flag(const char* key) {
   const Json* value = find(key);
   if (value != nullptr && !value->is_boolean()) wrong(key, "true or false is wanted");
@@ -64,8 +165,10 @@ std::vector<std::string> JsonReader::texts(const char* key) {
   const Json* value = find(key);
   if (value == nullptr) return all;
   if (!value->is_array()) wrong(key, "a list of texts is wanted");
-  for (const Json& element : value->is_array() ? *value : Json::array()) {
-    if (!element.is_string()) wrong(key, "a list of texts is wanted");
+  const std::size_t count = value->is_array() ? value->size() : 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Json& element = (*value)[i];
+    if (!element.is_string()) wrong(fmt::format("{}[{}]", key, i), "a text is wanted");
     if (element.is_string()) all.push_back(element.get<std::string>());
   }
   return all;
@@ -75,16 +178,14 @@ std::vector<double> JsonReader::numbers(const char* key, double least, double mo
   std::vector<double> all;
   const Json* value = find(key);
   if (value == nullptr) return all;
-  const auto add = [&](const Json& element) {
+  const auto add = [&](const Json& element, const std::string& place) {
     const double number = element.is_number() ? element.get<double>() : most + 1.0;
     if (!(number >= least && number <= most))
-      wrong(key, fmt::format("numbers from {:g} to {:g} are wanted", least, most));
+      wrong(place, fmt::format("a number from {:g} to {:g} is wanted", least, most));
     all.push_back(number);
   };
-  if (value->is_array())
-    for (const Json& element : *value) add(element);
-  else
-    add(*value);
+  if (!value->is_array()) add(*value, key);
+  for (std::size_t i = 0; value->is_array() && i < value->size(); ++i) add((*value)[i], fmt::format("{}[{}]", key, i));
   return all;
 }
 
@@ -92,7 +193,7 @@ std::vector<JsonReader> JsonReader::objects(const char* key) {
   std::vector<JsonReader> all;
   const Json* value = find(key);
   if (value == nullptr) return all;
-  const std::string place = path_.empty() ? key : path_ + "." + key;
+  const std::string place = below(path_, key);
   if (!value->is_array()) {
     all.emplace_back(*value, place, *fault_);
     return all;
@@ -105,7 +206,7 @@ std::vector<JsonReader> JsonReader::objects(const char* key) {
 std::optional<JsonReader> JsonReader::object(const char* key) {
   const Json* value = find(key);
   if (value == nullptr) return std::nullopt;
-  return JsonReader(*value, path_.empty() ? key : path_ + "." + key, *fault_);
+  return JsonReader(*value, below(path_, key), *fault_);
 }
 
 std::size_t JsonReader::word(const char* key, const std::vector<std::string_view>& words) {
@@ -128,24 +229,17 @@ void JsonReader::finish() {
 
 Result<nlohmann::json> parseJson(std::string_view text, const std::string& where) {
   // Depth is looked at first: the parser goes as deep as it is led.
-  int depth = 0;
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (quoted) {
-      if (c == '\\') ++i;
-      if (c == '"') quoted = false;
-    } else if (c == '"') {
-      quoted = true;
-    } else if (c == '{' || c == '[') {
-      if (++depth > kDeepest) return fail(ErrorCode::input, "is nested too deeply", where);
-    } else if (c == '}' || c == ']') {
-      --depth;
-    }
-  }
+  if (const auto fine = checkDepth(text, where); !fine) return tl::unexpected(fine.error());
   nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
   if (document.is_discarded()) return fail(ErrorCode::input, "is not JSON", where);
   return document;
+}
+
+Result<nlohmann::json> parseStrictJson(std::string_view text, const std::string& where) {
+  if (const auto fine = checkDepth(text, where); !fine) return tl::unexpected(fine.error());
+  StrictWalk walk;
+  if (!nlohmann::json::sax_parse(text, &walk)) return fail(ErrorCode::input, walk.fault(), where);
+  return parseJson(text, where);
 }
 
 }  // namespace umbrage::rules::detail

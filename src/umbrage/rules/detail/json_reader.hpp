@@ -21,6 +21,7 @@ class JsonReader {
   [[nodiscard]] bool has(const char* key);
   [[nodiscard]] std::string text(const char* key, bool wanted = false);
   [[nodiscard]] std::optional<double> number(const char* key, double least, double most);
+  [[nodiscard]] std::optional<int> whole(const char* key, int least, int most);
   [[nodiscard]] bool flag(const char* key);
   [[nodiscard]] std::vector<std::string> texts(const char* key);
   [[nodiscard]] std::vector<double> numbers(const char* key, double least, double most);
@@ -32,7 +33,6 @@ class JsonReader {
 
   void wrong(const std::string& key, const std::string& what);
   void finish();
-  [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] const Json& json() const { return *object_; }
 
  private:
@@ -43,7 +43,11 @@ class JsonReader {
   std::vector<std::string> asked_;
 };
 
-/// The document, or why it is none.
+/// The document, or why it is none. Of members of one name the last one counts.
 [[nodiscard]] Result<nlohmann::json> parseJson(std::string_view text, const std::string& where);
+
+/// The document, or why it is none, with the member at which it ceases to be one.
+/// 1. Two members of one name in an object, and numbers that no double holds, are errors.
+[[nodiscard]] Result<nlohmann::json> parseStrictJson(std::string_view text, const std::string& where);
 
 }  // namespace umbrage::rules::detail

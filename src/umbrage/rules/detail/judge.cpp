@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <string>
 #include <tuple>
 
 #include "umbrage/base/check.hpp"
@@ -14,6 +15,12 @@ class SunDays {
   /// A window, the least height of the sun in it (0 where none is asked for), a place, and the conventions.
   using Key = std::tuple<sun::Instant, sun::Instant, double, double, double, sun::Refraction, study::SunPoint, bool>;
   std::map<Key, std::shared_ptr<const detail::Day>> known;
+
+  /// What sunrise, sunset and true solar time need costs half as much as the day itself: a date, its window, the clock and the place.
+  using Limit = std::optional<std::chrono::milliseconds>;
+  using WindowKey = std::tuple<std::chrono::year_month_day, Clock, Limit, Limit, Limit, Limit, sun::Zone::Kind,
+                               std::string, std::chrono::year, double, double, bool>;
+  std::map<WindowKey, std::optional<study::TimeSpan>> windows;
 };
 
 std::shared_ptr<SunDays> makeSunDays() { return std::make_shared<SunDays>(); }
@@ -47,16 +54,23 @@ milliseconds valueOf(const Measure& m, const Spans& spans) {
   return m.statistic == Statistic::longestSun ? longest(spans) : total(spans);
 }
 
+bool passes(const Measure& m, milliseconds value) {
+  switch (m.comparison) {
+    case Comparison::atLeast: return value >= m.threshold;
+    case Comparison::moreThan: return value > m.threshold;
+    case Comparison::atMost: return value <= m.threshold;
+    case Comparison::lessThan: return value < m.threshold;
+  }
+  return false;
+}
+
 ReceiverResult resultOf(const Measure& m, std::size_t target, year_month_day date, Spans spans) {
   ReceiverResult r;
   r.target = target, r.date = date;
   const milliseconds value = valueOf(m, spans);
   r.value = hoursOf(value), r.threshold = hoursOf(m.threshold);
   r.margin = wantsMore(m) ? r.value - r.threshold : r.threshold - r.value;
-  r.passes = m.comparison == Comparison::atLeast    ? value >= m.threshold
-             : m.comparison == Comparison::moreThan ? value > m.threshold
-             : m.comparison == Comparison::atMost   ? value <= m.threshold
-                                                    : value < m.threshold;
+  r.passes = passes(m, value);
   r.spans = std::move(spans);
   return r;
 }
@@ -69,13 +83,14 @@ bool worse(const ReceiverResult& a, const ReceiverResult& b) {
 // The receivers of one finding, and how they are asked about.
 class Panel {
  public:
-  Panel(const Requirement& requirement, const TargetSet& all, std::size_t group, const Conventions& conventions)
+  /// `group`: indices of its targets.
+  Panel(const Requirement& requirement, const TargetSet& all, const std::vector<std::size_t>& group,
+        const Conventions& conventions)
       : requirement_(requirement), conventions_(conventions), all_(all) {
     constexpr double kSlack = 1e-3;  // metres: a line's points lie on both of its sides
-    for (std::size_t i = 0; i < all.targets.size(); ++i) {
+    for (const std::size_t i : group) {
       const Target& target = all.targets[i];
       const auto& band = requirement.band;
-      if (target.group != group) continue;
       if (band && (target.fromSite < band->from - kSlack || (band->to && target.fromSite > *band->to + kSlack)))
         continue;
       chosen_.push_back(i);
@@ -84,6 +99,7 @@ class Panel {
   }
   [[nodiscard]] bool empty() const { return chosen_.empty(); }
 
+  // Of each receiver its worst day by its best measure.
   [[nodiscard]] Result<std::vector<ReceiverResult>> results(const SunOf& now, const SunOf* before,
                                                             const ProgressSink& progress) const {
     std::vector<ReceiverResult> best;
@@ -98,6 +114,31 @@ class Panel {
           if (worse(best[i], (*results)[i])) best[i] = std::move((*results)[i]);
     }
     return best;
+  }
+
+  // What one day says.
+  [[nodiscard]] Result<std::vector<ReceiverResult>> onDate(const Measure& m, year_month_day date, const SunOf& now,
+                                                           const SunOf* before, const ProgressSink& progress) const {
+    std::vector<ReceiverResult> results;
+    const auto day = dayOf(m, date, conventions_);
+    if (!day) {
+      for (const std::size_t target : chosen_) results.push_back(resultOf(m, target, date, {}));
+      return results;
+    }
+    const auto lit = now(receivers_, day->course, progress);
+    if (!lit) return tl::unexpected(lit.error());
+    std::optional<study::SunHours> former;
+    if (m.statistic == Statistic::newShadow) {
+      UMBRAGE_CHECK(before != nullptr, "new shadow needs a baseline");
+      auto found = (*before)(receivers_, day->course, progress);
+      if (!found) return tl::unexpected(found.error());
+      former = std::move(*found);
+    }
+    for (std::size_t i = 0; i < chosen_.size(); ++i)
+      results.push_back(
+          resultOf(m, chosen_[i], date,
+                   countedSpans(m, day->counting, lit->lit(i), former ? former->lit(i) : std::span<const TimeSpan>())));
+    return results;
   }
 
   // The share of the receivers that pass.
@@ -130,20 +171,35 @@ class Panel {
     return order.back();
   }
 
+  // Calls fn(date, progress) for each day of a measure, ascending.
+  template <class Fn>
+  [[nodiscard]] Result<void> forDates(const Measure& m, const ProgressSink& progress, Fn&& fn) const {
+    const auto dates = datesOf(m.days, conventions_.calendar);
+    for (std::size_t i = 0; i < dates.size(); ++i) {
+      const ProgressSink part = [&](double fraction, std::string_view what) {
+        return reportProgress(progress, (double(i) + fraction) / double(dates.size()), what);
+      };
+      if (const auto done = fn(dates[i], part); !done) return done;
+    }
+    return {};
+  }
+
   // Hours of new shadow times area, and of all that count.
   [[nodiscard]] Result<std::pair<double, double>> newAreaHours(const Lights& lights,
                                                                const ProgressSink& progress) const {
     std::pair<double, double> sums{0.0, 0.0};
     const Measure& m = requirement_.anyOf.front();
-    const auto done = forDays(m, progress, [&](const Day& day, const ProgressSink& part) -> Result<void> {
-      const auto now = lights.now(receivers_, day.course, part);
+    const auto done = forDates(m, progress, [&](year_month_day date, const ProgressSink& part) -> Result<void> {
+      const auto day = dayOf(m, date, conventions_);
+      if (!day) return {};
+      const auto now = lights.now(receivers_, day->course, part);
       if (!now) return tl::unexpected(now.error());
-      const auto before = lights.before(receivers_, day.course, part);
+      const auto before = lights.before(receivers_, day->course, part);
       if (!before) return tl::unexpected(before.error());
-      const double whole = hoursOf(total(day.counting));
+      const double whole = hoursOf(total(day->counting));
       for (std::size_t i = 0; i < receivers_.size(); ++i) {
         const double area = all_.targets[chosen_[i]].weight;
-        sums.first += area * hoursOf(total(countedSpans(m, day.counting, now->lit(i), before->lit(i))));
+        sums.first += area * hoursOf(total(countedSpans(m, day->counting, now->lit(i), before->lit(i))));
         sums.second += area * whole;
       }
       return {};
@@ -155,73 +211,22 @@ class Panel {
  private:
   [[nodiscard]] double weight(const ReceiverResult& r) const { return all_.targets[r.target].weight; }
 
-  template <class Fn>
-  [[nodiscard]] Result<void> forDays(const Measure& m, const ProgressSink& progress, Fn&& fn) const {
-    const auto dates = datesOf(m.days, conventions_.calendar);
-    for (std::size_t i = 0; i < dates.size(); ++i) {
-      const ProgressSink part = [&](double fraction, std::string_view what) {
-        return reportProgress(progress, (double(i) + fraction) / double(dates.size()), what);
-      };
-      const auto day = dayOf(m, dates[i], conventions_);
-      if (!day) return tl::unexpected(day.error());
-      if (!*day) continue;
-      if (const auto done = fn(**day, part); !done) return done;
-    }
-    return {};
-  }
-
   [[nodiscard]] Result<std::vector<ReceiverResult>> ofMeasure(const Measure& m, const SunOf& now, const SunOf* before,
                                                               const ProgressSink& progress) const {
     std::vector<ReceiverResult> kept;
-    const auto dates = datesOf(m.days, conventions_.calendar);
-    for (std::size_t d = 0; d < dates.size(); ++d) {
-      const ProgressSink part = [&](double fraction, std::string_view what) {
-        return reportProgress(progress, (double(d) + fraction) / double(dates.size()), what);
-      };
-      auto today = onDate(m, dates[d], now, before, part);
-      if (!today) return today;
-      if (d == 0)
+    const auto done = forDates(m, progress, [&](year_month_day date, const ProgressSink& part) -> Result<void> {
+      auto today = onDate(m, date, now, before, part);
+      if (!today) return tl::unexpected(today.error());
+      if (kept.empty()) {
         kept = std::move(*today);
-      else if (m.days.best)
-        keepBetterDay(kept, *today);
-      else
-        keepWorse(kept, *today);
-    }
+        return {};
+      }
+      for (std::size_t i = 0; i < today->size(); ++i)
+        if (worse((*today)[i], kept[i])) kept[i] = std::move((*today)[i]);
+      return {};
+    });
+    if (!done) return tl::unexpected(done.error());
     return kept;
-  }
-
-  void keepBetterDay(std::vector<ReceiverResult>& kept, std::vector<ReceiverResult>& today) const {
-    const double wanted = requirement_.share;
-    if (worse(kept[deciding(kept, wanted)], today[deciding(today, wanted)])) kept = std::move(today);
-  }
-  static void keepWorse(std::vector<ReceiverResult>& kept, std::vector<ReceiverResult>& today) {
-    for (std::size_t i = 0; i < kept.size(); ++i)
-      if (worse(today[i], kept[i])) kept[i] = std::move(today[i]);
-  }
-
-  [[nodiscard]] Result<std::vector<ReceiverResult>> onDate(const Measure& m, year_month_day date, const SunOf& now,
-                                                           const SunOf* before, const ProgressSink& progress) const {
-    std::vector<ReceiverResult> results;
-    const auto day = dayOf(m, date, conventions_);
-    if (!day) return tl::unexpected(day.error());
-    if (!*day) {
-      for (const std::size_t target : chosen_) results.push_back(resultOf(m, target, date, {}));
-      return results;
-    }
-    const auto lit = now(receivers_, (*day)->course, progress);
-    if (!lit) return tl::unexpected(lit.error());
-    std::optional<study::SunHours> former;
-    if (m.statistic == Statistic::newShadow) {
-      UMBRAGE_CHECK(before != nullptr, "new shadow needs a baseline");
-      auto found = (*before)(receivers_, (*day)->course, progress);
-      if (!found) return tl::unexpected(found.error());
-      former = std::move(*found);
-    }
-    for (std::size_t i = 0; i < chosen_.size(); ++i)
-      results.push_back(resultOf(
-          m, chosen_[i], date,
-          countedSpans(m, (*day)->counting, lit->lit(i), former ? former->lit(i) : std::span<const TimeSpan>())));
-    return results;
   }
 
   const Requirement& requirement_;
@@ -242,26 +247,97 @@ Result<void> weighNew(const Requirement& requirement, const Panel& panel, const 
   return {};
 }
 
-Result<void> weighShares(const Requirement& requirement, const Panel& panel, const Lights& lights,
-                         const ProgressSink& progress, Finding& finding) {
-  const SunOf* before = lights.before ? &lights.before : nullptr;
-  auto results = panel.results(lights.now, before, progress);
-  if (!results) return tl::unexpected(results.error());
+// The finding that receivers make, given what they had in the baseline where that counts.
+void weigh(const Requirement& requirement, const Panel& panel, std::vector<ReceiverResult> results,
+           const std::optional<std::vector<ReceiverResult>>& former, Finding& finding) {
   finding.wanted = requirement.share;
-  if (requirement.former && before != nullptr) {
-    const auto former = panel.results(*before, nullptr, progress);
-    if (!former) return tl::unexpected(former.error());
+  if (former) {
     finding.formerShare = panel.shareOf(*former);
     finding.wanted = std::min(finding.wanted, *requirement.former * *finding.formerShare);
   }
-  finding.share = panel.shareOf(*results);
+  finding.share = panel.shareOf(results);
   finding.passes = finding.wanted >= 1.0
-                       ? std::all_of(results->begin(), results->end(), [](const auto& r) { return r.passes; })
+                       ? std::all_of(results.begin(), results.end(), [](const auto& r) { return r.passes; })
                        : finding.share >= finding.wanted - kRounding;
-  finding.deciding = panel.deciding(*results, finding.wanted);
-  finding.margin = (*results)[*finding.deciding].margin;
-  finding.receivers = std::move(*results);
+  finding.deciding = panel.deciding(results, finding.wanted);
+  finding.margin = results[*finding.deciding].margin;
+  finding.receivers = std::move(results);
+}
+
+// `results` asks for what receivers have by one light: now or, as if it were now, in the baseline.
+template <class Results>
+Result<void> weighNowAndBefore(const Requirement& requirement, const Panel& panel, const Lights& lights,
+                               Results&& results, Finding& finding) {
+  const SunOf* before = lights.before ? &lights.before : nullptr;
+  auto now = results(lights.now, before);
+  if (!now) return tl::unexpected(now.error());
+  std::optional<std::vector<ReceiverResult>> former;
+  if (requirement.former && before != nullptr) {
+    auto found = results(*before, nullptr);
+    if (!found) return tl::unexpected(found.error());
+    former = std::move(*found);
+  }
+  weigh(requirement, panel, std::move(*now), former, finding);
   return {};
+}
+
+Result<void> weighShares(const Requirement& requirement, const Panel& panel, const Lights& lights,
+                         const ProgressSink& progress, Finding& finding) {
+  const auto results = [&](const SunOf& now, const SunOf* before) { return panel.results(now, before, progress); };
+  return weighNowAndBefore(requirement, panel, lights, results, finding);
+}
+
+// By all of the rule, what was there before included, each day against its own past.
+Result<void> weighBestDay(const Requirement& requirement, const Panel& panel, const Lights& lights,
+                          const ProgressSink& progress, Finding& finding) {
+  const Measure& m = requirement.anyOf.front();
+  const Finding blank = finding;
+  const auto better = [](const Finding& a, const Finding& b) {
+    return a.passes != b.passes ? a.passes : a.margin > b.margin;
+  };
+  return panel.forDates(m, progress, [&](year_month_day date, const ProgressSink& part) -> Result<void> {
+    Finding today = blank;
+    const auto results = [&](const SunOf& now, const SunOf* before) {
+      return panel.onDate(m, date, now, before, part);
+    };
+    const auto done = weighNowAndBefore(requirement, panel, lights, results, today);
+    if (done && (!finding.deciding || better(today, finding))) finding = std::move(today);
+    return done;
+  });
+}
+
+Result<void> weighAll(const Requirement& requirement, const Panel& panel, const Lights& lights,
+                      const ProgressSink& progress, Finding& finding) {
+  if (requirement.mostNew) return weighNew(requirement, panel, lights, progress, finding);
+  if (requirement.anyOf.front().days.best) return weighBestDay(requirement, panel, lights, progress, finding);
+  return weighShares(requirement, panel, lights, progress, finding);
+}
+
+std::vector<std::vector<std::size_t>> targetsByGroup(const TargetSet& targets) {
+  std::vector<std::vector<std::size_t>> groups(targets.groups.size());
+  for (std::size_t i = 0; i < targets.targets.size(); ++i) groups[targets.targets[i].group].push_back(i);
+  return groups;
+}
+
+std::optional<TimeSpan> knownWindowOn(const Window& window, year_month_day date, const Conventions& conventions) {
+  const Calendar& calendar = conventions.calendar;
+  const SunDays::WindowKey key{date,
+                               window.clock,
+                               window.from,
+                               window.to,
+                               window.afterSunrise,
+                               window.beforeSunset,
+                               calendar.zone.kind,
+                               calendar.zone.name,
+                               calendar.date.year(),
+                               calendar.place.latitude.radians(),
+                               calendar.place.longitude.radians(),
+                               conventions.clockSwitched};
+  auto& known = conventions.days->windows;
+  auto found = known.find(key);
+  if (found == known.end())
+    found = known.emplace(key, windowOn(window, date, calendar, conventions.clockSwitched)).first;
+  return found->second;
 }
 
 }  // namespace
@@ -269,6 +345,11 @@ Result<void> weighShares(const Requirement& requirement, const Panel& panel, con
 SunOf sunOf(std::shared_ptr<const study::ExactHours> hours) {
   return [hours = std::move(hours)](std::span<const study::Receiver> receivers, const study::SunCourse& course,
                                     const ProgressSink& progress) { return hours->at(receivers, course, progress); };
+}
+
+bool holds(const Measure& m, std::span<const TimeSpan> counting, std::span<const TimeSpan> lit,
+           std::span<const TimeSpan> litBefore) {
+  return passes(m, valueOf(m, countedSpans(m, counting, lit, litBefore)));
 }
 
 bool allPass(const std::vector<Finding>& findings) {
@@ -283,11 +364,10 @@ Conventions conventionsOf(const Rule& rule, const VerifyRequest& request) {
           request.days ? request.days : makeSunDays()};
 }
 
-Result<std::shared_ptr<const Day>> dayOf(const Measure& measure, year_month_day date, const Conventions& conventions) {
-  const auto window = windowOn(measure.window, date, conventions.calendar, conventions.clockSwitched);
-  if (!window) return tl::unexpected(window.error());
-  if (!*window) return std::shared_ptr<const Day>();
-  const TimeSpan span = **window;
+std::shared_ptr<const Day> dayOf(const Measure& measure, year_month_day date, const Conventions& conventions) {
+  const auto window = knownWindowOn(measure.window, date, conventions);
+  if (!window) return nullptr;
+  const TimeSpan span = *window;
   const SunDays::Key key{span.from,
                          span.to,
                          measure.leastAltitude ? measure.leastAltitude->radians() : 0.0,
@@ -317,16 +397,16 @@ Result<std::vector<Finding>> judge(const Rule& rule, const Lights& lights, const
   const ProgressSink part = [&](double fraction, std::string_view what) {
     return reportProgress(progress, (done + fraction) / parts, what);
   };
+  const auto groups = targetsByGroup(targets);
   for (std::size_t r = 0; r < rule.requirements.size(); ++r)
     for (std::size_t g = 0; g < targets.groups.size(); ++g, done += 1.0) {
       const Requirement& requirement = rule.requirements[r];
-      const Panel panel(requirement, targets, g, conventions);
+      const Panel panel(requirement, targets, groups[g], conventions);
       if (panel.empty()) continue;
       Finding finding;
-      finding.requirement = r, finding.group = targets.groups[g];
-      const auto weighed = requirement.mostNew ? weighNew(requirement, panel, lights, part, finding)
-                                               : weighShares(requirement, panel, lights, part, finding);
-      if (!weighed) return tl::unexpected(weighed.error());
+      finding.requirement = r, finding.groupIndex = g, finding.group = targets.groups[g];
+      if (const auto weighed = weighAll(requirement, panel, lights, part, finding); !weighed)
+        return tl::unexpected(weighed.error());
       findings.push_back(std::move(finding));
     }
   return findings;

@@ -25,9 +25,9 @@ struct Conventions {
 };
 [[nodiscard]] Conventions conventionsOf(const Rule& rule, const VerifyRequest& request);
 
-/// Nothing where no time of the day counts. Errors: usage (the clock).
-[[nodiscard]] Result<std::shared_ptr<const Day>> dayOf(const Measure& measure, std::chrono::year_month_day date,
-                                                       const Conventions& conventions);
+/// Nothing where no time of the day counts.
+[[nodiscard]] std::shared_ptr<const Day> dayOf(const Measure& measure, std::chrono::year_month_day date,
+                                               const Conventions& conventions);
 
 /// When receivers are lit, of some scene: what study::ExactHours::at answers.
 using SunOf = std::function<Result<study::SunHours>(std::span<const study::Receiver>, const study::SunCourse&,
@@ -38,6 +38,10 @@ struct Lights {
   SunOf now, before;
 };
 [[nodiscard]] SunOf sunOf(std::shared_ptr<const study::ExactHours> hours);
+
+/// Does a measure hold at a receiver on one day? `lit`, `litBefore`: by what stands now, and in the baseline.
+[[nodiscard]] bool holds(const Measure& measure, std::span<const study::TimeSpan> counting,
+                         std::span<const study::TimeSpan> lit, std::span<const study::TimeSpan> litBefore);
 
 /// Holds all requirements against all groups.
 [[nodiscard]] Result<std::vector<Finding>> judge(const Rule& rule, const Lights& lights, const TargetSet& targets,
