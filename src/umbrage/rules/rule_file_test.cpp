@@ -58,6 +58,11 @@ TEST(RuleFile, contradictionsAndSlipsAreNamed) {
       {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"metres_from_site\":{\"from\":5}"),
        "receivers of kind site"},
       {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"least_run_minutes\":\"5\""), "least_run_minutes"},
+      {with("\"name\":\"mine\"", "\"name\":\"mine\",\"checked\":\"the act\""), "checked: a list of texts is wanted"},
+      {with("\"name\":\"mine\"", "\"name\":\"mine\",\"checked\":[\"the act\",1]"),
+       "checked: a list of texts is wanted"},
+      {with("\"name\":\"mine\"", "\"name\":\"mine\",\"uncertain\":\"all\""), "uncertain: a list of texts is wanted"},
+      {with("\"name\":\"mine\"", "\"name\":\"mine\",\"cheked\":[]"), "cheked: no such member"},
       {with("\"kind\":\"points\"", "\"kind\":\"windows\""), "one of points, areas, site"},
       {with("\"kind\":\"points\"", "\"kind\":\"points\",\"height\":2"), "points lie where they are"},
       {with("\"name\":\"mine\",", ""), "name: is missing"},
@@ -71,6 +76,17 @@ TEST(RuleFile, contradictionsAndSlipsAreNamed) {
     EXPECT_EQ(rule.error().where, "mine.json");
     EXPECT_THAT(rule.error().message, HasSubstr(says));
   }
+}
+
+TEST(RuleFile, textsAreReadInTheirOrder) {
+  const auto rule = parseRule(
+      with("\"name\":\"mine\"", R"("name":"mine","checked":["the act","the city's page"],"uncertain":["the clock"])"),
+      "");
+  ASSERT_TRUE(rule) << rule.error().text();
+  EXPECT_THAT(rule->checked, testing::ElementsAre("the act", "the city's page"));
+  EXPECT_THAT(rule->uncertain, testing::ElementsAre("the clock"));
+  const auto without = parseRule(kGood, "");
+  EXPECT_TRUE(without && without->checked.empty());
 }
 
 TEST(RuleFile, alternativesShareWhatIsCommon) {
