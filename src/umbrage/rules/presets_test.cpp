@@ -12,8 +12,9 @@ using std::chrono::year_month_day;
 
 TEST(Presets, China) {
   for (const auto& [name, wanted, winter] :
-       {std::tuple("china-dahan-2", 2.0, false), std::tuple("china-dahan-3", 3.0, false),
-        std::tuple("china-winter-1", 1.0, true)}) {
+       {std::tuple("china-dahan-1", 1.0, false), std::tuple("china-dahan-2", 2.0, false),
+        std::tuple("china-dahan-3", 3.0, false), std::tuple("china-winter-1", 1.0, true),
+        std::tuple("china-winter-2", 2.0, true)}) {
     Setting s{name, place(39.9, 116.4), zone("Asia/Shanghai"), {}, sunAtLeast(wanted)};
     // Dahan falls on 20 January 2026, the solstice on 22 December by Chinese time.
     s.looks.push_back(winter ? look(s, day(12, 22), kSolar, 9h, 15h) : look(s, day(1, 20), kSolar, 8h, 16h));
@@ -122,7 +123,7 @@ TEST(Presets, TnoAndTheHague) {
 TEST(Presets, Poland) {
   for (const auto& [name, wanted, from, to] :
        {std::tuple("poland", 3.0, 7h, 17h), std::tuple("poland-centre", 1.5, 7h, 17h),
-        std::tuple("poland-children", 3.0, 8h, 16h)}) {
+        std::tuple("poland-children", 3.0, 8h, 16h), std::tuple("poland-centre-children", 1.5, 8h, 16h)}) {
     Setting s{name, place(52.23, 21.01), zone("Europe/Warsaw"), {}, sunAtLeast(wanted)};
     // The equinoxes of 2026 are on 20 March and, by Polish time, 23 September.
     s.looks.push_back(look(s, day(3, 20), kSolar, from, to));

@@ -97,11 +97,15 @@ TEST(RuleFile, alternativesShareWhatIsCommon) {
   EXPECT_EQ(rule->requirements[0].anyOf[1].statistic, Statistic::longestSun);
 }
 
-TEST(Presets, eachNamesItsSourceAndWhatIsUncertain) {
+TEST(Presets, eachNamesItsSourceTheTextsItWasHeldAgainstAndWhatIsUncertain) {
   EXPECT_GE(presets().size(), 30u);
   for (const Rule& rule : presets()) {
     EXPECT_FALSE(rule.source.empty()) << rule.name;
     EXPECT_FALSE(rule.uncertain.empty()) << rule.name;
+    EXPECT_FALSE(rule.checked.empty()) << rule.name;
+    for (const std::string& text : rule.checked)
+      EXPECT_THAT(text, testing::MatchesRegex(".+ [(].+, https?://[^ ]+, seen 20[0-9][0-9]-[01][0-9][)]: .+[.]"))
+          << rule.name;
     EXPECT_FALSE(rule.where.empty()) << rule.name;
     EXPECT_TRUE(presetText(rule.name)) << rule.name;
   }
