@@ -109,8 +109,7 @@ struct Rule {
   /// Least altitudes by country, for measures without one; empty where the rule has none.
   std::vector<std::pair<std::string, Angle>> altitudeByCountry;
   std::vector<std::string> notes;
-  std::vector<std::string>
-      checked;  ///< public texts that figures were held against: title, publisher, address, what it confirms
+  std::vector<std::string> checked;    ///< public texts that figures were held against, with addresses
   std::vector<std::string> uncertain;  ///< what no text has settled
 };
 
