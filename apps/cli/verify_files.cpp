@@ -41,6 +41,12 @@ VerdictReport withWorstDay(VerdictReport report) {
   return report;
 }
 
+/// Lines of one subject, numbered from the second on: in GeoJSON subjects are the names of members, and of two alike readers keep one.
+void addLines(report::VectorMap& map, const std::string& subject, const std::vector<std::string>& lines) {
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    map.ledger.push_back({i == 0 ? subject : fmt::format("{} {}", subject, i + 1), lines[i]});
+}
+
 /// A picture of several days is none, so it has the day that brings most; GeoJSON has them all.
 Result<report::VectorMap> verdictMap(const VerdictFiles& files, const VerdictReport& report, bool allDays) {
   auto map = mapOf(files.scene, outline::castersOf(files.scene), files.plane, report.request.place, files.place, "", {},
@@ -50,7 +56,8 @@ Result<report::VectorMap> verdictMap(const VerdictFiles& files, const VerdictRep
   map->subtitle = shortName(std::filesystem::path(files.scene.source).filename().string());
   map->ledger = report.verdict.ledger;
   map->ledger.insert(map->ledger.begin() + 2, {"Verdict", report.verdict.passes ? "passes" : "fails"});
-  for (const std::string& line : report.verdict.rule.uncertain) map->ledger.push_back({"Uncertain", line});
+  addLines(*map, "Checked", report.verdict.rule.checked);
+  addLines(*map, "Uncertain", report.verdict.rule.uncertain);
   addVerdict(*map, allDays ? report : withWorstDay(report), files.scene);
   return map;
 }

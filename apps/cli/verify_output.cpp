@@ -261,6 +261,7 @@ std::string verdictText(const VerdictReport& r) {
   for (const Finding& f : v.findings) text += findingText(r, f);
   text += switchesText(r);
   for (const DayNews& day : r.news) text += newsText(r, day);
+  text += list("Checked against:", v.rule.checked);
   text += list("Uncertain in this preset:", v.rule.uncertain);
   text += list("Notes:", v.rule.notes);
   return text + fmt::format("Source: {}\n", v.rule.source);
@@ -272,7 +273,7 @@ Json verdictJson(const VerdictReport& r) {
                {"where", v.rule.where},         {"passes", v.passes},        {"near_threshold", v.nearThreshold},
                {"findings", Json::array()},     {"switches", Json::array()}, {"new_shadow", Json::array()},
                {"uncertain", v.rule.uncertain}, {"notes", v.rule.notes},     {"warnings", v.warnings},
-               {"ledger", Json::object()}};
+               {"checked", v.rule.checked},     {"ledger", Json::object()}};
   for (const Finding& f : v.findings) json["findings"].push_back(findingJson(r, f));
   for (const rules::SwitchOutcome& s : v.switches)
     json["switches"].push_back(

@@ -163,6 +163,7 @@ void addOtherwise(report::StudyPage& page, const VerdictReport& r) {
 
 std::vector<std::pair<std::string, std::string>> sourcesOf(const rules::Rule& rule) {
   std::vector<std::pair<std::string, std::string>> list{{"source", rule.source}};
+  for (const auto& line : rule.checked) list.emplace_back("checked against", line);
   for (const auto& line : rule.uncertain) list.emplace_back("uncertain", line);
   for (const auto& line : rule.notes) list.emplace_back("note", line);
   return list;

@@ -51,7 +51,8 @@ TEST_F(Verify, ExitCodeIsTheVerdict) {
   const Ran passes = run({"verify", low, "--preset", "china-dahan-2", "--points", points()}, kBeijing);
   EXPECT_EQ(passes.code, 0) << passes.err;
   EXPECT_THAT(passes.out, AllOf(StartsWith("PASS  china-dahan-2"), HasSubstr("100.0 % of 2 receivers"),
-                                HasSubstr("GB 50180-2018"), HasSubstr("Uncertain in this preset:")));
+                                HasSubstr("GB 50180-2018"), HasSubstr("Checked against:"),
+                                HasSubstr("bjtu-tod-research.com"), HasSubstr("Uncertain in this preset:")));
   const auto shed = write("shed.csv", "x,y,z,nx,ny,nz\n0,1.05,0.5,0,-1,0\n");
   const Ran fails = run({"verify", high, "--preset", "china-dahan-2", "--points", shed}, kBeijing);
   EXPECT_EQ(fails.code, 1) << fails.err;
@@ -90,8 +91,12 @@ TEST_F(Verify, EvidenceIsATableAMapAndJson) {
   }
   EXPECT_TRUE(shadows && failing);
   for (const char* subject : {"Rule", "Source", "Verdict", "Place", "Date", "Clock", "Sun", "North", "Unit",
-                              "Receivers", "Casters", "Input", "Baseline", "Made by", "Uncertain"})
+                              "Receivers", "Casters", "Input", "Baseline", "Made by", "Checked", "Uncertain"})
     EXPECT_TRUE(evidence.at("umbrage").contains(subject)) << subject;
+  // None of several texts is lost: a member of its own for each.
+  ASSERT_GE(verdict.at("checked").size(), 3u);
+  EXPECT_EQ(evidence.at("umbrage").at("Checked"), verdict.at("checked").at(0));
+  EXPECT_EQ(evidence.at("umbrage").at("Checked 3"), verdict.at("checked").at(2));
   // The same input gives the same bytes.
   const std::string first = read("e.geojson");
   EXPECT_EQ(run({"verify", box, "--baseline", before, "--preset", "nyc-ceqr", "--areas", park(), "--json", "-o",

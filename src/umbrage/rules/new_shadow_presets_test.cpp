@@ -114,6 +114,15 @@ TEST(Presets, BostonMidtown) {
   for (const auto d : season(day(3, 21), day(10, 21), 2 * midtown.setting.every))
     midtown.setting.looks.push_back(look(midtown.setting, d, midtown.setting.zone, 8h, 14h + 30min, 0.0, 120s));
   expectThreeNew(midtown, southOf(-8.0, 8.0));
+  NewCase garden{{"boston-garden-midtown", place(42.355, -71.065), zone("America/New_York"), {}, {}}};
+  // At noon the sun is lowest on the last day, so each of the last ones is looked at.
+  for (std::chrono::sys_days d = day(3, 21); d <= std::chrono::sys_days(day(10, 21));
+       d += std::chrono::days(d < std::chrono::sys_days(day(10, 12)) ? 15 : 1)) {
+    study::TimeSpan span = daylight(garden.setting.place, d, 60min, 60min);
+    span.from = at(garden.setting.zone, garden.setting.place, d, 10h);
+    garden.setting.looks.emplace_back(garden.setting.place, span, 0.0, 15s);
+  }
+  expectThreeNew(garden, southOf(-8.0, 8.0));
 }
 
 // The shares of new shadow in a park of four points, counted: the sun of each look, and whether what stood before lets it through.

@@ -111,7 +111,8 @@ struct Rule {
   /// Least altitudes by country, for measures without one; empty where the rule has none.
   std::vector<std::pair<std::string, Angle>> altitudeByCountry;
   std::vector<std::string> notes;
-  std::vector<std::string> uncertain;  ///< figures that nobody has held against the source
+  std::vector<std::string> checked;    ///< public texts that figures were held against, with addresses
+  std::vector<std::string> uncertain;  ///< what no text has settled
 };
 
 /// A requirement speaks of what the baseline has, and means nothing without one.

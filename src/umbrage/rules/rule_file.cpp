@@ -272,7 +272,7 @@ Rule ruleOf(JsonReader& in) {
       if (m.leastAltitude && !rule.altitudeByCountry.empty())
         in.wrong("least_sun_altitude_by_country", "a measure has an altitude of its own");
   }
-  rule.notes = in.texts("notes"), rule.uncertain = in.texts("uncertain");
+  rule.notes = in.texts("notes"), rule.checked = in.texts("checked"), rule.uncertain = in.texts("uncertain");
   in.finish();
   return rule;
 }

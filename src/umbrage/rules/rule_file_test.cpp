@@ -60,6 +60,10 @@ TEST(RuleFile, contradictionsAndSlipsAreNamed) {
       {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"least_run_minutes\":\"5\""), "least_run_minutes"},
       {with("\"kind\":\"points\"},\n  \"requirements\":[{", "\"kind\":\"site\"},\n  \"requirements\":[{\"share\":0.5,"),
        "wants an end"},
+      {with("\"name\":\"mine\"", "\"name\":\"mine\",\"checked\":\"the act\""), "checked: a list of texts is wanted"},
+      {with("\"name\":\"mine\"", "\"name\":\"mine\",\"checked\":[\"the act\",1]"), "checked[1]: a text is wanted"},
+      {with("\"name\":\"mine\"", "\"name\":\"mine\",\"uncertain\":\"all\""), "uncertain: a list of texts is wanted"},
+      {with("\"name\":\"mine\"", "\"name\":\"mine\",\"cheked\":[]"), "cheked: no such member"},
       {with("\"kind\":\"points\"", "\"kind\":\"windows\""), "one of points, areas, site"},
       {with("\"kind\":\"points\"", "\"kind\":\"points\",\"height\":2"), "points lie where they are"},
       {with("\"name\":\"mine\",", ""), "name: is missing"},
@@ -141,6 +145,17 @@ TEST(RuleFile, whatMayBeLeftOut) {
   EXPECT_TRUE(needsBaseline(*share));
 }
 
+TEST(RuleFile, textsAreReadInTheirOrder) {
+  const auto rule = parseRule(
+      with("\"name\":\"mine\"", R"("name":"mine","checked":["the act","the city's page"],"uncertain":["the clock"])"),
+      "");
+  ASSERT_TRUE(rule) << rule.error().text();
+  EXPECT_THAT(rule->checked, testing::ElementsAre("the act", "the city's page"));
+  EXPECT_THAT(rule->uncertain, testing::ElementsAre("the clock"));
+  const auto without = parseRule(kGood, "");
+  EXPECT_TRUE(without && without->checked.empty());
+}
+
 TEST(RuleFile, alternativesShareWhatIsCommon) {
   const auto rule = findRule("korea");
   ASSERT_TRUE(rule);
@@ -149,11 +164,15 @@ TEST(RuleFile, alternativesShareWhatIsCommon) {
   EXPECT_EQ(rule->requirements[0].anyOf[1].statistic, Statistic::longestSun);
 }
 
-TEST(Presets, eachNamesItsSourceAndWhatIsUncertain) {
+TEST(Presets, eachNamesItsSourceTheTextsItWasHeldAgainstAndWhatIsUncertain) {
   EXPECT_GE(presets().size(), 30u);
   for (const Rule& rule : presets()) {
     EXPECT_FALSE(rule.source.empty()) << rule.name;
     EXPECT_FALSE(rule.uncertain.empty()) << rule.name;
+    EXPECT_FALSE(rule.checked.empty()) << rule.name;
+    for (const std::string& text : rule.checked)
+      EXPECT_THAT(text, testing::MatchesRegex(".+ [(].+, https?://[^ ]+, seen 20[0-9][0-9]-[01][0-9][)]: .+[.]"))
+          << rule.name;
     EXPECT_FALSE(rule.where.empty()) << rule.name;
     EXPECT_TRUE(presetText(rule.name)) << rule.name;
   }
