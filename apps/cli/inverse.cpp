@@ -112,7 +112,8 @@ Result<Outcome> inverseVolume(const InverseVolume& given, const Console& console
   if (!place) return tl::unexpected(place.error());
   const auto site = siteOf(o.rule, *scene);
   if (!site) return tl::unexpected(site.error());
-  const rules::VerifyRequest request{*place, o.place.zone, o.place.date, rules::Sensitivity::nearThreshold};
+  rules::VerifyRequest request{*place, o.place.zone, o.place.date, rules::Sensitivity::nearThreshold};
+  request.days = rules::makeSunDays();
   rules::InverseOptions options;
   options.cell = o.cell.value_or(0.0), options.most = o.most.value_or(kMost);
   if (!o.rule.grid) o.rule.grid = kGrid / scene->metresPerUnit;

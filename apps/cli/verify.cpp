@@ -73,7 +73,8 @@ Result<std::vector<DayNews>> newsOf(const VerifyOptions& o, const scene::Scene& 
     } else {
       rules::NetNewOptions options;
       options.height = grounds.height, options.times = times, options.areas = grounds.areas, options.sun = rule.sun;
-      options.moments = momentsOf(o, request, date, times);
+      // Only maps draw them.
+      if (!o.output.empty() && !hasExtension(o.output, ".csv")) options.moments = momentsOf(o, request, date, times);
       auto news = rules::netNew(scene, baseline, request.place, options, console.progress());
       if (!news) return tl::unexpected(news.error());
       day.news = std::move(*news);
@@ -108,6 +109,7 @@ Result<Outcome> run(const VerifyOptions& o, const Console& console) {
   VerdictReport report;
   report.request = {*place, o.place.zone, o.place.date, o.sensitivity};
   report.request.casters = o.scene.casters;
+  report.request.days = rules::makeSunDays();
   auto grounds = groundsOf(o.rule, *rule, *scene, report.request);
   if (!grounds) return tl::unexpected(grounds.error());
   const scene::Scene* before = *baseline ? &**baseline : nullptr;

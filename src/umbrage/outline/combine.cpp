@@ -107,6 +107,84 @@ void addShadow(const CasterPart& part, const Vec2& slope, const Grid& grid, std:
   for (Loop& loop : detail::windingLoops(points, part.triangles)) loops.push_back(std::move(loop));
 }
 
+struct ShadowLoops {
+  std::vector<Loop> loops;
+  Grid grid{Vec2(0.0), 1.0};
+};
+
+// The new shadow of what touches the window, if there is one; empty where nothing does.
+ShadowLoops newLoops(const std::vector<CasterPart>& added, const std::vector<CasterPart>& standing, const Vec2& slope,
+                     const Extent* window) {
+  // Casters whose shadow is wholly elsewhere change nothing and would only coarsen the grid.
+  std::vector<const CasterPart*> ours, others;
+  Extent extent, reach;
+  for (const CasterPart& part : added) {
+    const Extent shadow = shadowExtent(part, slope);
+    if (shadow.empty() || (window != nullptr && (window->empty() || !shadow.touches(*window)))) continue;
+    ours.push_back(&part);
+    reach.add(shadow);
+  }
+  if (ours.empty()) return {};
+  extent = reach;
+  for (const CasterPart& part : standing) {
+    const Extent shadow = shadowExtent(part, slope);
+    if (shadow.empty() || !shadow.touches(reach) || (window != nullptr && !shadow.touches(*window))) continue;
+    others.push_back(&part);
+    extent.add(shadow);
+  }
+  if (window != nullptr) extent.add(*window);
+  const Grid grid(extent);
+  std::vector<Loop> loops, covered;
+  for (const CasterPart* part : ours) addShadow(*part, slope, grid, loops);
+  for (const CasterPart* part : others) addShadow(*part, slope, grid, covered);
+  return {detail::combine(loops, covered, detail::Set::difference), grid};
+}
+
+std::size_t cornersOf(const Region& region) {
+  std::size_t count = 0;
+  forEdges(region, [&](const Vec2&, const Vec2&) { ++count; });
+  return count;
+}
+
+Region rectangleOf(const Extent& e) {
+  Region region;
+  region.polygons.push_back({{e.min, {e.max.x, e.min.y}, e.max, {e.min.x, e.max.y}}, {}});
+  region.area = (e.max.x - e.min.x) * (e.max.y - e.min.y);
+  return region;
+}
+
+// The parallel to an axis through the middle that meets the fewest edges: each edge that is met is in both halves.
+struct Cut {
+  int axis = 0;
+  double at = 0.0;
+  std::size_t met = 0;
+};
+Cut bestCut(const Region& region, const Extent& extent) {
+  Cut cuts[2];
+  for (int axis = 0; axis < 2; ++axis) {
+    cuts[axis] = {axis, 0.5 * (extent.min[axis] + extent.max[axis]), 0};
+    forEdges(region, [&](const Vec2& a, const Vec2& b) {
+      if ((a[axis] < cuts[axis].at) != (b[axis] < cuts[axis].at)) ++cuts[axis].met;
+    });
+  }
+  return cuts[1].met < cuts[0].met ? cuts[1] : cuts[0];
+}
+
+constexpr int kDeepestCut = 16;  // where many corners lie in one place
+
+void addPieces(const Region& region, std::size_t corners, int deepest, std::vector<Region>& pieces) {
+  if (region.polygons.empty()) return;
+  const std::size_t count = cornersOf(region);
+  Extent low = extentOf(region), high = low;
+  const Cut cut = bestCut(region, low);
+  if (deepest == 0 || count <= corners || 4 * cut.met > count) {
+    pieces.push_back(region);
+    return;
+  }
+  low.max[cut.axis] = high.min[cut.axis] = cut.at;
+  for (const Extent& half : {low, high}) addPieces(common(region, rectangleOf(half)), corners, deepest - 1, pieces);
+}
+
 }  // namespace
 
 Region without(const Region& a, const Region& b) { return combined(a, b, detail::Set::difference); }
@@ -159,34 +237,41 @@ std::vector<CasterPart> aboveHeight(const std::vector<CasterPart>& parts, double
   return raised;
 }
 
+std::vector<Region> inPieces(const Region& region, std::size_t corners) {
+  UMBRAGE_CHECK(corners >= 16, "pieces of so few corners are cut for ever");
+  std::vector<Region> pieces;
+  addPieces(region, corners, kDeepestCut, pieces);
+  return pieces;
+}
+
 Region newShadow(const std::vector<CasterPart>& added, const std::vector<CasterPart>& standing, const Vec2& slope,
                  const std::optional<Region>& within) {
-  // Casters whose shadow is wholly elsewhere change nothing and would only coarsen the grid.
   const Extent window = within ? extentOf(*within) : Extent{};
-  std::vector<const CasterPart*> ours, others;
-  Extent extent, reach;
-  for (const CasterPart& part : added) {
-    const Extent shadow = shadowExtent(part, slope);
-    if (shadow.empty() || (within && (window.empty() || !shadow.touches(window)))) continue;
-    ours.push_back(&part);
-    reach.add(shadow);
+  const ShadowLoops shadow = newLoops(added, standing, slope, within ? &window : nullptr);
+  if (shadow.loops.empty()) return {};
+  if (!within) return detail::unite(shadow.loops, shadow.grid);
+  return detail::unite(detail::combine(shadow.loops, loopsOf(*within, shadow.grid), detail::Set::intersection),
+                       shadow.grid);
+}
+
+double newShadowArea(const std::vector<CasterPart>& added, const std::vector<CasterPart>& standing, const Vec2& slope,
+                     const std::vector<Region>& regions) {
+  Extent window;
+  std::vector<Extent> extents;
+  for (const Region& region : regions) extents.push_back(extentOf(region)), window.add(extents.back());
+  if (window.empty()) return 0.0;
+  const ShadowLoops shadow = newLoops(added, standing, slope, &window);
+  if (shadow.loops.empty()) return 0.0;
+  Extent reach;
+  for (const Loop& loop : shadow.loops)
+    for (const detail::GridPoint& p : loop) reach.add(shadow.grid.place(p));
+  double area = 0.0;
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    if (!extents[i].touches(reach)) continue;
+    const auto common = detail::combine(shadow.loops, loopsOf(regions[i], shadow.grid), detail::Set::intersection);
+    area += detail::unite(common, shadow.grid).area;
   }
-  if (ours.empty()) return {};
-  extent = reach;
-  for (const CasterPart& part : standing) {
-    const Extent shadow = shadowExtent(part, slope);
-    if (shadow.empty() || !shadow.touches(reach) || (within && !shadow.touches(window))) continue;
-    others.push_back(&part);
-    extent.add(shadow);
-  }
-  if (within) extent.add(window);
-  const Grid grid(extent);
-  std::vector<Loop> loops, covered;
-  for (const CasterPart* part : ours) addShadow(*part, slope, grid, loops);
-  for (const CasterPart* part : others) addShadow(*part, slope, grid, covered);
-  loops = detail::combine(loops, covered, detail::Set::difference);
-  if (within) loops = detail::combine(loops, loopsOf(*within, grid), detail::Set::intersection);
-  return detail::unite(loops, grid);
+  return area;
 }
 
 }  // namespace umbrage::outline

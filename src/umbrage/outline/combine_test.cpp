@@ -63,6 +63,39 @@ TEST(Combine, grownByADistance) {
   EXPECT_TRUE(grown(court, 6.0, 1e-3).polygons.at(0).holes.empty());
 }
 
+TEST(Combine, inPieces) {
+  Ring comb;
+  for (int i = 0; i < 300; ++i)
+    for (const Vec2& p : {Vec2(0.3 * i, 2), Vec2(0.3 * i + 0.1, 2), Vec2(0.3 * i + 0.1, 40), Vec2(0.3 * i + 0.3, 40)})
+      comb.push_back(p);
+  comb.emplace_back(90, 50), comb.emplace_back(0, 50);
+  const Region region = without(regionOf(comb), regionOf(rectangle({10, 43}, 20, 3)));
+  const std::vector<Region> pieces = inPieces(region, 64);
+  EXPECT_GT(pieces.size(), 10U);
+  double area = 0.0;
+  for (const Region& piece : pieces) {
+    area += piece.area;
+    std::size_t corners = 0;
+    for (const Polygon& polygon : piece.polygons) {
+      corners += polygon.outer.size();
+      for (const Ring& hole : polygon.holes) corners += hole.size();
+    }
+    EXPECT_LE(corners, 64U);
+    EXPECT_LT(without(piece, region).area, 1e-5);
+  }
+  EXPECT_NEAR(area, region.area, 1e-5);
+  EXPECT_EQ(inPieces(region, 5000).size(), 1U);
+  EXPECT_TRUE(inPieces({}, 64).empty());
+  // The shadow on the pieces is that on the whole.
+  const CasterPart low = prism("low", rectangle({-5, -20}, 10, 8), 0, 9),
+                   high = prism("high", rectangle({12, -20}, 20, 10), 0, 40);
+  for (const Vec2& slope : {Vec2(0.1, 0.9), Vec2(1.0, 1.4), Vec2(-0.9, 0.3)})
+    EXPECT_NEAR(newShadowArea({high, low}, {low}, slope, pieces), newShadow({high, low}, {low}, slope, region).area,
+                1e-5)
+        << slope.x;
+  EXPECT_EQ(newShadowArea({low}, {low}, {0.3, 1.0}, pieces), 0.0);
+}
+
 // The shadow of a box on its own ground: the ground plan, and what its width across the slope sweeps over.
 double boxShadow(double width, double depth, double height, const Vec2& slope) {
   return width * depth + height * (width * std::abs(slope.y) + depth * std::abs(slope.x));

@@ -21,6 +21,7 @@ using study::TimeSpan;
 constexpr milliseconds kBorder{50};  // how closely a visit's ends are found
 constexpr int kDeepest = 14;         // halvings of Simpson's rule
 constexpr double kIntegral = 1e-6;
+constexpr std::size_t kMostCorners = 128;  // of a piece of an area
 
 bool same(const CasterPart& a, const CasterPart& b) {
   return a.name == b.name && a.points == b.points && a.triangles == b.triangles;
@@ -45,6 +46,17 @@ class Ground {
   [[nodiscard]] Region at(sun::Instant t, std::size_t building) const {
     return outline::newShadow({added_[building]}, standing_, slope(t), within_);
   }
+  /// Thousands of areas are asked for over a day: a piece with few corners is clipped in far less than its share of the time.
+  void cutIntoPieces() {
+    if (within_) pieces_ = outline::inPieces(*within_, kMostCorners);
+  }
+  [[nodiscard]] double areaAt(sun::Instant t) const {
+    return pieces_.empty() ? at(t).area : outline::newShadowArea(added_, standing_, slope(t), pieces_);
+  }
+  [[nodiscard]] double areaAt(sun::Instant t, std::size_t building) const {
+    return pieces_.empty() ? at(t, building).area
+                           : outline::newShadowArea({added_[building]}, standing_, slope(t), pieces_);
+  }
   [[nodiscard]] const std::vector<CasterPart>& added() const { return added_; }
 
  private:
@@ -60,6 +72,7 @@ class Ground {
   const study::SunCourse& course_;
   Angle north_;
   std::optional<Region> within_;
+  std::vector<Region> pieces_;
 };
 
 using AreaAt = std::function<double(sun::Instant)>;
@@ -137,14 +150,14 @@ Spans highEnough(const study::SunCourse& course, const NetNewOptions& options) {
 
 AreaNews newsOf(const std::string& name, double size, const Ground& ground, const Spans& times, double square) {
   AreaNews news{name, size, 0.0, {}, {}};
-  const AreaAt all = [&](sun::Instant t) { return ground.at(t).area; };
+  const AreaAt all = [&](sun::Instant t) { return ground.areaAt(t); };
   news.all = visitsOf("", all, times, square);
   news.areaHours = integral([&](sun::Instant t) { return all(t) * square; }, news.all);
   if (news.all.empty()) return news;
   Spans during;
   for (const Visit& visit : news.all) during.push_back(visit.span);
   for (std::size_t b = 0; b < ground.added().size(); ++b) {
-    const AreaAt own = [&](sun::Instant t) { return ground.at(t, b).area; };
+    const AreaAt own = [&](sun::Instant t) { return ground.areaAt(t, b); };
     for (Visit& visit : visitsOf(ground.added()[b].name, own, during, square)) news.visits.push_back(std::move(visit));
   }
   std::stable_sort(news.visits.begin(), news.visits.end(),
@@ -262,7 +275,8 @@ Result<NetNew> netNew(const scene::Scene& proposal, const scene::Scene& baseline
     if (!reportProgress(progress, double(i) / double(options.areas.size()), "new shadow"))
       return fail(ErrorCode::cancelled, "cancelled");
     const Area& area = options.areas[i];
-    const Ground ground(added, standing, course, proposal.northOffset, area.region);
+    Ground ground(added, standing, course, proposal.northOffset, area.region);
+    ground.cutIntoPieces();
     out.areas.push_back(newsOf(area.name, area.region.area * square, ground, times, square));
   }
   return out;
