@@ -2,12 +2,16 @@
 
 #include <umbrage_shaders/ambient_frag.hpp>
 #include <umbrage_shaders/screen_vert.hpp>
+#include <umbrage_shaders/tinted_ambient_frag.hpp>
 #include <umbrage_shaders/tinted_encode_frag.hpp>
 #include <umbrage_shaders/tinted_light_frag.hpp>
+#include <umbrage_shaders/tinted_lit_frag.hpp>
 #include <umbrage_shaders/tinted_reach_frag.hpp>
+#include <umbrage_shaders/tinted_reach_veiled_frag.hpp>
 #include <umbrage_shaders/tinted_reach_veils_frag.hpp>
 #include <umbrage_shaders/tinted_receivers_frag.hpp>
 #include <umbrage_shaders/tinted_tiles_frag.hpp>
+#include <umbrage_shaders/tinted_tiles_veiled_frag.hpp>
 #include <umbrage_shaders/tinted_veiled_frag.hpp>
 #include <umbrage_shaders/tinted_volume_frag.hpp>
 #include <umbrage_shaders/tinted_volume_layers_frag.hpp>
@@ -22,11 +26,11 @@
 namespace umbrage::render {
 namespace {
 
-constexpr std::size_t kTintBytes = 8;        // as the shaders have it
-constexpr std::size_t kVeilLightBytes = 16;  // likewise
-constexpr std::size_t kVeilSumBytes = 16;    // likewise
-// Of the stencil: the highest bit marks where something is to be summed up, the others count.
-constexpr std::uint8_t kMark = 0x80, kCountBits = 0x7f;
+constexpr std::size_t kTintBytes = 8;      // as the shaders have it
+constexpr std::size_t kVeilSumBytes = 16;  // likewise
+// Of the stencil: the highest bit marks where something is to be summed up, the next where there are veils, the others count.
+constexpr std::uint8_t kMark = 0x80, kCountBits = 0x3f;
+static_assert(kTintedStencil == kCountBits && (kMark | kVeiledBit | kCountBits) == 0xff);
 
 /// A surface as the shaders know it, as std430 lays it out.
 struct Face {
@@ -76,6 +80,10 @@ gl::PassState screenState(const TintedFrame& frame) {
   return state;
 }
 
+gl::StencilState where(std::uint8_t bits, std::uint8_t ofThese) {
+  return {.test = true, .compare = gl::Compare::equal, .reference = bits, .readMask = ofThese, .writeMask = 0};
+}
+
 // The two parts of a sum, as tinted_volume.vert splits it.
 struct Parts {
   std::int32_t upper, lower;
@@ -95,12 +103,16 @@ std::array<std::array<float, 4>, TintTargets::kPairs> partsOf(const TintWeight& 
 struct TintedPasses::Programs {
   gl::Program receivers{shaders::kScreenVert, shaders::kTintedReceiversFrag},
       veiled{shaders::kScreenVert, shaders::kTintedVeiledFrag}, tiles{shaders::kScreenVert, shaders::kTintedTilesFrag},
+      tilesVeiled{shaders::kScreenVert, shaders::kTintedTilesVeiledFrag},
       volume{shaders::kTintedVolumeVert, shaders::kTintedVolumeFrag},
       volumeCount{shaders::kTintedVolumeVert, shaders::kVolumeFrag},
       volumeLayers{shaders::kTintedVolumeVert, shaders::kTintedVolumeLayersFrag},
       reach{shaders::kScreenVert, shaders::kTintedReachFrag},
+      reachVeiled{shaders::kScreenVert, shaders::kTintedReachVeiledFrag},
       reachVeils{shaders::kScreenVert, shaders::kTintedReachVeilsFrag},
-      ambient{shaders::kScreenVert, shaders::kAmbientFrag}, light{shaders::kScreenVert, shaders::kTintedLightFrag},
+      ambient{shaders::kScreenVert, shaders::kAmbientFrag},
+      ambientVeiled{shaders::kScreenVert, shaders::kTintedAmbientFrag},
+      lit{shaders::kScreenVert, shaders::kTintedLitFrag}, light{shaders::kScreenVert, shaders::kTintedLightFrag},
       encode{shaders::kScreenVert, shaders::kTintedEncodeFrag};
 };
 
@@ -158,11 +170,13 @@ Result<image::Image<Vec2f>> TintedPasses::receivers(const TintedFrame& frame) {
     state.viewport = {0, 0, columns, rows};
     state.colourWrite = true;
     gl::Pass pass(frame.scope, frame.target.tilesTarget(), state);
-    pass.use(programs_->tiles);
+    pass.use(frame.lightsVeils() ? programs_->tilesVeiled : programs_->tiles);
     pass.uniforms(0, block_);
     pass.storage(1, bits_);
-    pass.storage(2, frame.veils.pixels());
-    pass.storage(3, frame.veils.veils());
+    if (frame.lightsVeils()) {
+      pass.storage(2, frame.veils.pixels());
+      pass.storage(3, frame.veils.veils());
+    }
     pass.texture(0, frame.target.ids());
     pass.texture(1, frame.target.depthStencil());
     pass.draw(screen_, 3);
@@ -203,7 +217,9 @@ void TintedPasses::begin(const TintedFrame& frame, const TintedLight& light) {
     const auto parts = partsOf(start);
     for (int i = 0; i < state.colourTargets; ++i) pass.clearColour(parts[static_cast<std::size_t>(i)], i);
   }
-  gl::Pass pass(frame.scope, frame.target.stencilTarget(), screenState(frame));
+  gl::PassState counts = screenState(frame);
+  counts.stencil.writeMask = kMark | kCountBits;
+  gl::Pass pass(frame.scope, frame.target.stencilTarget(), counts);
   pass.clearStencil(byStencil_ ? static_cast<std::uint8_t>(atEye_.opaque & kCountBits) : 0);
 }
 
@@ -212,6 +228,11 @@ void TintedPasses::mark(const TintedFrame& frame, const TintedLight& light, bool
   gl::PassState state = screenState(frame);
   const gl::StencilFace write{.pass = gl::StencilOp::replace};
   state.stencil = {.test = true, .reference = kMark, .writeMask = kMark, .front = write, .back = write};
+  if (veils) {
+    state.stencil.compare = gl::Compare::equal;
+    state.stencil.reference = kMark | kVeiledBit;
+    state.stencil.readMask = kVeiledBit;
+  }
   state.scissor = light.litArea;
   gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
   pass.use(veils ? programs_->veiled : programs_->receivers);
@@ -267,7 +288,7 @@ void TintedPasses::addTinted(const TintedFrame& frame, const gl::Rect& area, Cou
   const auto compare = counted == before ? gl::Compare::greater : gl::Compare::lessOrEqual;
   state.depth = {.test = counted != everywhere, .pass = compare, .write = false, .clamp = true};
   // What opaque casters have darkened already stays dark.
-  state.stencil = {.test = true, .compare = gl::Compare::equal, .reference = kMark};
+  state.stencil = where(kMark, kMark | kCountBits);
   state.blend = gl::Blend::add;
   state.colourWrite = true;
   state.colourTargets = static_cast<int>(TintTargets::kPairs);
@@ -284,7 +305,7 @@ void TintedPasses::addToVeils(const TintedFrame& frame, const gl::Rect& area, Co
   gl::PassState state = frame.placement;
   // What is behind the opaque surface is before no veil.
   state.depth = {.test = counted == before, .pass = gl::Compare::greater, .write = false, .clamp = true};
-  state.stencil = {.test = true, .compare = gl::Compare::equal, .reference = kMark};
+  state.stencil = where(kMark, kMark);
   state.scissor = area;
   gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
   pass.use(programs_->volumeLayers);
@@ -309,7 +330,9 @@ void TintedPasses::sum(const TintedFrame& frame, const TintedLight& light) {
 
 void TintedPasses::sumVeils(const TintedFrame& frame, const TintedLight& light) {
   {
-    gl::Pass pass(frame.scope, frame.target.stencilTarget(), screenState(frame));
+    gl::PassState state = screenState(frame);
+    state.stencil.writeMask = kMark;
+    gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
     pass.clearStencil(0);
   }
   if (light.litArea.empty()) return;
@@ -321,14 +344,14 @@ void TintedPasses::sumVeils(const TintedFrame& frame, const TintedLight& light) 
   for (const Counted counted : kAllCounted) addToVeils(frame, area, counted);
 }
 
-// What opaque casters have darkened is not marked alone any more, and stays dark.
-void TintedPasses::writeTints(const TintedFrame& frame, const TintedLight& light, bool veils) {
+void TintedPasses::writeTints(const TintedFrame& frame, const TintedLight& light, const gl::Program& program,
+                              const gl::StencilState& where) {
   if (light.litArea.empty()) return;
   gl::PassState state = screenState(frame);
-  state.stencil = {.test = true, .compare = gl::Compare::equal, .reference = kMark};
+  state.stencil = where;
   state.scissor = light.litArea;
   gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
-  pass.use(veils ? programs_->reachVeils : programs_->reach);
+  pass.use(program);
   pass.uniforms(0, block_);
   pass.uniforms(1, shading_);
   pass.storage(0, faces_);
@@ -344,46 +367,93 @@ void TintedPasses::writeTints(const TintedFrame& frame, const TintedLight& light
   pass.publishStorage();
 }
 
-Result<void> TintedPasses::reach(const TintedFrame& frame, const TintedLight& light, const PhaseEnd& ended) {
+void TintedPasses::addLit(const TintedFrame& frame, const TintedLight& light) {
+  if (light.litArea.empty()) return;
+  gl::PassState state = screenState(frame);
+  state.stencil = where(kMark, 0xff);
+  state.scissor = light.litArea;
+  state.colourWrite = true;
+  state.blend = gl::Blend::add;
+  gl::Pass pass(frame.scope, frame.target.sumTarget(), state);
+  pass.use(programs_->lit);
+  pass.uniforms(0, block_);
+  pass.uniforms(1, shading_);
+  pass.storage(0, faces_);
+  pass.storage(5, colours_);
+  pass.texture(0, frame.target.ids());
+  const auto& sums = frame.target.tints().sums;
+  for (unsigned i = 0; i < sums.size(); ++i) pass.texture(1 + i, sums[i]);
+  pass.draw(screen_, 3);
+}
+
+// What opaque casters have darkened is not marked alone any more, and stays dark.
+Result<void> TintedPasses::reach(const TintedFrame& frame, const TintedLight& light, Toward toward,
+                                 const PhaseEnd& ended) {
   const auto end = [&](const char* phase) {
     if (!ended) return;
     gl::finish();
     ended(phase);
   };
-  tints_.clear();
+  const bool veils = frame.veils.count() > 0;
+  if (veils || toward == Toward::tints) tints_.clear();
   if (auto done = setBlock(frame, light.number); !done) return done;
   sum(frame, light);
   end("volumes");
-  writeTints(frame, light, false);
+  if (toward == Toward::picture)
+    addLit(frame, light);
+  else
+    writeTints(frame, light, programs_->reach, where(kMark, 0xff));
+  if (veils) writeTints(frame, light, programs_->reachVeiled, where(kMark | kVeiledBit, 0xff));
   end("lit");
-  if (frame.veils.count() == 0) return {};
+  if (!veils) return {};
   sumVeils(frame, light);
   end("volumes at veils");
-  writeTints(frame, light, true);
+  writeTints(frame, light, programs_->reachVeils, where(kMark, kMark));
   end("lit");
   return {};
 }
 
 Result<void> TintedPasses::beginPicture(const TintedFrame& frame, const gl::Buffer& shading) {
+  const bool veils = frame.veils.count() > 0;
+  if (auto done = setBlock(frame, 0); !done) return done;
   gl::PassState state = screenState(frame);
   state.colourWrite = true;
+  if (veils) state.stencil = where(0, kVeiledBit);
+  {
+    gl::Pass pass(frame.scope, frame.target.sumTarget(), state);
+    pass.clearColour({0.0f, 0.0f, 0.0f, 0.0f});
+    pass.use(programs_->ambient);
+    pass.uniforms(1, shading);
+    pass.storage(1, frame.scene.triangles());
+    pass.storage(2, frame.scene.corners());
+    pass.storage(4, colours_);
+    pass.texture(0, frame.target.ids());
+    pass.draw(screen_, 3);
+  }
+  if (!veils) return {};
+  state.stencil = where(kVeiledBit, kVeiledBit);
   gl::Pass pass(frame.scope, frame.target.sumTarget(), state);
-  pass.clearColour({0.0f, 0.0f, 0.0f, 0.0f});
-  pass.use(programs_->ambient);
+  pass.use(programs_->ambientVeiled);
+  pass.uniforms(0, block_);
   pass.uniforms(1, shading);
-  pass.storage(1, frame.scene.triangles());
-  pass.storage(2, frame.scene.corners());
-  pass.storage(4, colours_);
+  pass.storage(0, faces_);
+  pass.storage(2, frame.veils.pixels());
+  pass.storage(3, frame.veils.veils());
+  pass.storage(5, colours_);
+  pass.storage(7, passing_);
   pass.texture(0, frame.target.ids());
   pass.draw(screen_, 3);
-  return veilLight_.reserve(kVeilLightBytes * frame.veils.count());
+  return {};
 }
 
-Result<void> TintedPasses::addLight(const TintedFrame& frame, int light) {
+Result<void> TintedPasses::addLight(const TintedFrame& frame, int light, Toward reached) {
+  const bool veils = frame.veils.count() > 0;
+  if (reached == Toward::picture && !veils) return {};
   if (auto done = setBlock(frame, light); !done) return done;
   gl::PassState state = screenState(frame);
   state.colourWrite = true;
   state.blend = gl::Blend::add;
+  if (reached == Toward::picture) state.stencil = where(kVeiledBit, kVeiledBit);
   gl::Pass pass(frame.scope, frame.target.sumTarget(), state);
   pass.use(programs_->light);
   pass.uniforms(0, block_);
@@ -393,31 +463,20 @@ Result<void> TintedPasses::addLight(const TintedFrame& frame, int light) {
   pass.storage(3, frame.veils.veils());
   pass.storage(4, tints_);
   pass.storage(5, colours_);
-  pass.storage(6, veilLight_);
+  pass.storage(7, passing_);
   pass.texture(0, frame.target.ids());
   pass.draw(screen_, 3);
-  pass.publishStorage();
   return {};
 }
 
-Result<void> TintedPasses::endPicture(const TintedFrame& frame, const gl::Buffer& shading, std::size_t lights) {
-  if (auto done = setBlock(frame, static_cast<int>(lights)); !done) return done;
+void TintedPasses::endPicture(const TintedFrame& frame, const gl::Buffer& shading) {
   gl::PassState state = screenState(frame);
   state.colourWrite = true;
   gl::Pass pass(frame.scope, frame.target.pictureTarget(), state);
   pass.use(programs_->encode);
-  pass.uniforms(0, block_);
   pass.uniforms(1, shading);
-  pass.storage(0, faces_);
-  pass.storage(2, frame.veils.pixels());
-  pass.storage(3, frame.veils.veils());
-  pass.storage(5, colours_);
-  pass.storage(6, veilLight_);
-  pass.storage(7, passing_);
-  pass.texture(0, frame.target.ids());
   pass.texture(1, frame.target.sum());
   pass.draw(screen_, 3);
-  return {};
 }
 
 }  // namespace umbrage::render

@@ -42,7 +42,7 @@ struct TintedLight {
 
 /// The passes that sum up, by the depth test and by blending, what lies between surfaces and a light, and what is made of the sums.
 /// For opaque surfaces sums are whole numbers in two parts (tinted_volume.vert), each added up in single precision by blending: exact in any order while no pixel lies
-/// before or behind more than 2^24 / 512 = 32,768 surfaces' worth of sides. What is opaque is counted in the stencil where seven bits do. For veils, any number of layers,
+/// before or behind more than 2^24 / 512 = 32,768 surfaces' worth of sides. What is opaque is counted in the stencil where six bits do. For veils, any number of layers,
 /// they are integers, added by atomic operations in one pass: a side adds to the first veil behind it, and what a veil has is carried on to those behind.
 /// REQUIRES: its context is current when it is made, used and destroyed. Light by light.
 class TintedPasses {
@@ -62,9 +62,11 @@ class TintedPasses {
   /// How far its receivers are, for ReceiverTiles. REQUIRES: setLight().
   [[nodiscard]] Result<image::Image<Vec2f>> receivers(const TintedFrame& frame);
   [[nodiscard]] Result<void> setVolume(const TintedVolume& volume);
-  /// Draws the volumes and works out the tints of all surfaces. REQUIRES: setLight() with sides, and setVolume().
-  /// Errors: as make().
-  [[nodiscard]] Result<void> reach(const TintedFrame& frame, const TintedLight& light, const PhaseEnd& ended);
+  /// Draws the volumes and works out the tints of all surfaces. Toward::picture: where nothing is seen through, the light is added to the picture instead.
+  /// REQUIRES: setLight() with sides, and setVolume(). Errors: as make().
+  enum class Toward { tints, picture };
+  [[nodiscard]] Result<void> reach(const TintedFrame& frame, const TintedLight& light, Toward toward,
+                                   const PhaseEnd& ended);
   /// Of the light of the last reach(): per pixel, row by row from the bottom, then per veil: 16 bits a channel, of 64.
   [[nodiscard]] const gl::Buffer& tints() const { return tints_; }
 
@@ -73,8 +75,9 @@ class TintedPasses {
 
   // Pictures. `shading`: without light, with the sky. REQUIRES: setMaterials(); the frame has a picture.
   [[nodiscard]] Result<void> beginPicture(const TintedFrame& frame, const gl::Buffer& shading);
-  [[nodiscard]] Result<void> addLight(const TintedFrame& frame, int light);
-  [[nodiscard]] Result<void> endPicture(const TintedFrame& frame, const gl::Buffer& shading, std::size_t lights);
+  /// By the tints: after Toward::picture what is seen through veils, else everything.
+  [[nodiscard]] Result<void> addLight(const TintedFrame& frame, int light, Toward reached);
+  void endPicture(const TintedFrame& frame, const gl::Buffer& shading);
 
  private:
   struct Programs;
@@ -92,11 +95,12 @@ class TintedPasses {
   void countOpaque(const TintedFrame& frame, const gl::Rect& area, Counted counted);
   void addTinted(const TintedFrame& frame, const gl::Rect& area, Counted counted);
   void addToVeils(const TintedFrame& frame, const gl::Rect& area, Counted counted);
-  void writeTints(const TintedFrame& frame, const TintedLight& light, bool veils);
+  void writeTints(const TintedFrame& frame, const TintedLight& light, const gl::Program& program,
+                  const gl::StencilState& where);
+  void addLit(const TintedFrame& frame, const TintedLight& light);
 
   std::unique_ptr<Programs> programs_;
-  gl::Buffer faces_, bits_, block_, view_, shading_, pieces_, farPoints_, tints_, veilSums_, veilLight_, colours_,
-      passing_;
+  gl::Buffer faces_, bits_, block_, view_, shading_, pieces_, farPoints_, tints_, veilSums_, colours_, passing_;
   std::array<gl::Buffer, 3> counted_;
   gl::Buffer quads_, triangles_;  ///< indices of sides and of caps, piece by piece
   gl::VertexArray quadVertices_{quads_}, triangleVertices_{triangles_}, screen_;

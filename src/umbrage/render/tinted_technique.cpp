@@ -38,6 +38,7 @@ float linearCode(double srgb) {
       shadow::decodeSrgb(static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(srgb, 0.0, 1.0)))));
 }
 
+using Toward = TintedPasses::Toward;
 using PackedTint = std::array<std::uint32_t, 2>;
 shadow::Tint unpacked(const PackedTint& t) {
   return {static_cast<std::uint16_t>(t[0]), static_cast<std::uint16_t>(t[0] >> 16), static_cast<std::uint16_t>(t[1])};
@@ -127,7 +128,8 @@ class TintedTechnique final : public detail::CardTechnique {
     const VeilOrder order = readSurfaces(*seen, frame.camera, shading);
     clock.end("readback");
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-      if (auto done = light(*seen, frame, i, shading.stats, ended); !done) return tl::unexpected(done.error());
+      if (auto done = light(*seen, frame, i, Toward::tints, shading.stats, ended); !done)
+        return tl::unexpected(done.error());
       shading.masks.push_back(readMask(order, shading));
       if (auto& soft = shading.stats.lights.back().soft) countPenumbra(shading.masks.back(), *soft);
       clock.end("readback");
@@ -142,10 +144,11 @@ class TintedTechnique final : public detail::CardTechnique {
     if (!seen) return tl::unexpected(seen.error());
     if (auto done = own_->passes->beginPicture(*seen, own_->shading); !done) return done;
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-      if (auto done = light(*seen, frame, i, stats, ended); !done) return done;
-      if (auto done = own_->passes->addLight(*seen, static_cast<int>(i)); !done) return done;
+      const Toward toward = isSoft(frame.lights[i]) ? Toward::tints : Toward::picture;
+      if (auto done = light(*seen, frame, i, toward, stats, ended); !done) return done;
+      if (auto done = own_->passes->addLight(*seen, static_cast<int>(i), toward); !done) return done;
     }
-    if (auto done = own_->passes->endPicture(*seen, own_->shading, frame.lights.size()); !done) return done;
+    own_->passes->endPicture(*seen, own_->shading);
     if (ended) {
       gl::finish();
       ended("lit");
@@ -244,12 +247,14 @@ class TintedTechnique final : public detail::CardTechnique {
     return out;
   }
 
-  Result<void> light(const TintedFrame& seen, const shadow::Frame& frame, std::size_t number, shadow::FrameStats& stats,
-                     const PhaseEnd& ended) {
+  [[nodiscard]] bool isSoft(const scene::Light& light) const { return traits_.soft && scene::isArea(light); }
+
+  Result<void> light(const TintedFrame& seen, const shadow::Frame& frame, std::size_t number, Toward toward,
+                     shadow::FrameStats& stats, const PhaseEnd& ended) {
     const scene::Light& light = frame.lights[number];
     shadow::LightStats& told = stats.lights.emplace_back();
-    if (traits_.soft && scene::isArea(light)) return softLight(seen, frame, number, told, ended);
-    return hardLight(seen, frame, number, light, told, ended);
+    if (isSoft(light)) return softLight(seen, frame, number, told, ended);
+    return hardLight(seen, frame, number, light, toward, told, ended);
   }
 
   // The mean of the hard light of many points; sixteen at a time, as on the processor.
@@ -266,7 +271,7 @@ class TintedTechnique final : public detail::CardTechnique {
       for (const auto& sample :
            shadow::lightSamples(light, sums.samples(), std::min(kPart, most - sums.samples()), room)) {
         shadow::LightStats one;
-        if (auto done = hardLight(seen, frame, number, sample.light, one, ended); !done) return done;
+        if (auto done = hardLight(seen, frame, number, sample.light, Toward::tints, one, ended); !done) return done;
         if (sums.samples() == 0) told = std::move(one);
         if (auto done = sums.add(seen, *own_->passes, own_->shading, sample, view_.eye); !done) return done;
       }
@@ -284,7 +289,7 @@ class TintedTechnique final : public detail::CardTechnique {
   }
 
   Result<void> hardLight(const TintedFrame& seen, const shadow::Frame& frame, std::size_t number,
-                         const scene::Light& light, shadow::LightStats& told, const PhaseEnd& ended) {
+                         const scene::Light& light, Toward toward, shadow::LightStats& told, const PhaseEnd& ended) {
     const auto end = [&](const char* phase) {
       if (ended) ended(phase);
     };
@@ -330,7 +335,7 @@ class TintedTechnique final : public detail::CardTechnique {
       gl::finish();
       ended("upload");
     }
-    return own_->passes->reach(seen, gpu, ended);
+    return own_->passes->reach(seen, gpu, toward, ended);
   }
 
   [[nodiscard]] VeilOrder readSurfaces(const TintedFrame& seen, const scene::Camera& camera,
