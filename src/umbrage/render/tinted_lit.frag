@@ -1,5 +1,5 @@
 #version 450 core
-// One light's share of the picture where nothing is seen through, as tinted_light.frag, without a stop among the tints. The stencil has only those surfaces left that face the light.
+// One light's share of the picture where nothing is seen through, without a stop among the tints. The stencil has only those surfaces left that face the light.
 layout(std140, binding = 0) uniform Tinted {
   vec4 eyeHigh;      // the eye in two floats a component, so that position - eye is exact near the eye
   vec4 eyeLow;
@@ -10,8 +10,8 @@ layout(std140, binding = 0) uniform Tinted {
   int pixelCount;    // tints of veils come after those of the opaque surfaces
   int light;         // which
   int hasSums;       // else nothing takes anything from the light but what the stencil counts
-  int unused;
-  int unused2;
+  int isFirst;       // light of the picture, which adds the ambient light, too
+  int opaqueDark;    // of pixels with veils: nothing reaches the opaque surface
   int atEyeOpaque;   // where the sums of veils start
   int atEyeRed;
   int atEyeGreen;
@@ -40,6 +40,8 @@ struct Face {
 };
 layout(std430, binding = 0) readonly buffer Faces { Face face[]; };
 layout(std430, binding = 5) readonly buffer Materials { vec4 material[]; };  // linear colour, opacity
+const float kSkyBase = 0.75;
+
 layout(location = 0) out vec4 share;
 
 ivec4 sumAt(ivec2 at) {
@@ -59,5 +61,7 @@ void main() {
   bool isLit = cone.w < -1.0 || dot(-towards, cone.xyz) >= cone.w * length(towards);
   ivec4 sum = hasSums != 0 ? sumAt(at) : ivec4(0);
   vec3 passing = sum.x != 0 || !isLit ? vec3(0.0) : clamp(exp2(-scale.x * vec3(sum.yzw)), 0.0, 1.0);
-  share = vec4(passing * material[floatBitsToUint(own.w)].rgb * radiance.rgb * abs(dot(own.xyz, normalize(towards))), 0.0);
+  vec3 light = passing * radiance.rgb * abs(dot(own.xyz, normalize(towards)));
+  if (isFirst != 0) light += sky.w * (kSkyBase + (1.0 - kSkyBase) * dot(slope > 0.0 ? -own.xyz : own.xyz, sky.xyz));
+  share = vec4(material[floatBitsToUint(own.w)].rgb * light, isFirst);
 }

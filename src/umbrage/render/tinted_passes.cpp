@@ -6,13 +6,12 @@
 #include <umbrage_shaders/tinted_encode_frag.hpp>
 #include <umbrage_shaders/tinted_light_frag.hpp>
 #include <umbrage_shaders/tinted_lit_frag.hpp>
+#include <umbrage_shaders/tinted_lit_veiled_frag.hpp>
 #include <umbrage_shaders/tinted_reach_frag.hpp>
-#include <umbrage_shaders/tinted_reach_veiled_frag.hpp>
 #include <umbrage_shaders/tinted_reach_veils_frag.hpp>
 #include <umbrage_shaders/tinted_receivers_frag.hpp>
 #include <umbrage_shaders/tinted_tiles_frag.hpp>
 #include <umbrage_shaders/tinted_tiles_veiled_frag.hpp>
-#include <umbrage_shaders/tinted_veiled_frag.hpp>
 #include <umbrage_shaders/tinted_volume_frag.hpp>
 #include <umbrage_shaders/tinted_volume_layers_frag.hpp>
 #include <umbrage_shaders/tinted_volume_vert.hpp>
@@ -80,8 +79,8 @@ gl::PassState screenState(const TintedFrame& frame) {
   return state;
 }
 
-gl::StencilState where(std::uint8_t bits, std::uint8_t ofThese) {
-  return {.test = true, .compare = gl::Compare::equal, .reference = bits, .readMask = ofThese, .writeMask = 0};
+gl::StencilState where(std::uint8_t bits, std::uint8_t ofThese, gl::Compare compare = gl::Compare::equal) {
+  return {.test = true, .compare = compare, .reference = bits, .readMask = ofThese, .writeMask = 0};
 }
 
 // The two parts of a sum, as tinted_volume.vert splits it.
@@ -102,18 +101,18 @@ std::array<std::array<float, 4>, TintTargets::kPairs> partsOf(const TintWeight& 
 
 struct TintedPasses::Programs {
   gl::Program receivers{shaders::kScreenVert, shaders::kTintedReceiversFrag},
-      veiled{shaders::kScreenVert, shaders::kTintedVeiledFrag}, tiles{shaders::kScreenVert, shaders::kTintedTilesFrag},
+      tiles{shaders::kScreenVert, shaders::kTintedTilesFrag},
       tilesVeiled{shaders::kScreenVert, shaders::kTintedTilesVeiledFrag},
       volume{shaders::kTintedVolumeVert, shaders::kTintedVolumeFrag},
       volumeCount{shaders::kTintedVolumeVert, shaders::kVolumeFrag},
       volumeLayers{shaders::kTintedVolumeVert, shaders::kTintedVolumeLayersFrag},
       reach{shaders::kScreenVert, shaders::kTintedReachFrag},
-      reachVeiled{shaders::kScreenVert, shaders::kTintedReachVeiledFrag},
       reachVeils{shaders::kScreenVert, shaders::kTintedReachVeilsFrag},
       ambient{shaders::kScreenVert, shaders::kAmbientFrag},
       ambientVeiled{shaders::kScreenVert, shaders::kTintedAmbientFrag},
-      lit{shaders::kScreenVert, shaders::kTintedLitFrag}, light{shaders::kScreenVert, shaders::kTintedLightFrag},
-      encode{shaders::kScreenVert, shaders::kTintedEncodeFrag};
+      lit{shaders::kScreenVert, shaders::kTintedLitFrag},
+      litVeiled{shaders::kScreenVert, shaders::kTintedLitVeiledFrag},
+      light{shaders::kScreenVert, shaders::kTintedLightFrag}, encode{shaders::kScreenVert, shaders::kTintedEncodeFrag};
 };
 
 TintedPasses::TintedPasses() : programs_(std::make_unique<Programs>()) {}
@@ -137,12 +136,15 @@ Result<void> TintedPasses::setMaterials(std::span<const scene::Material> materia
   return passing_.setAll(passing);
 }
 
-Result<void> TintedPasses::setBlock(const TintedFrame& frame, int light) {
+Result<void> TintedPasses::setBlock(const TintedFrame& frame, int light, Toward toward) {
   TintedBlock block = frame.block;
   block.light = light;
   block.hasSums = !byStencil_ || hasTinted_ ? 1 : 0;
+  block.isFirst = toward == Toward::newPicture ? 1 : 0;
   block.atEye = atEye_;
-  return block_.setOne(block);
+  if (auto done = block_.setOne(block); !done) return done;
+  block.opaqueDark = 1;
+  return darkBlock_.setOne(block);
 }
 
 Result<void> TintedPasses::setLight(const TintedFrame& frame, const TintedLight& light,
@@ -164,7 +166,7 @@ Result<void> TintedPasses::setLight(const TintedFrame& frame, const TintedLight&
 
 Result<image::Image<Vec2f>> TintedPasses::receivers(const TintedFrame& frame) {
   const int columns = tilesFor(frame.target.width()), rows = tilesFor(frame.target.height());
-  if (auto done = setBlock(frame, 0); !done) return tl::unexpected(done.error());
+  if (auto done = setBlock(frame, 0, Toward::tints); !done) return tl::unexpected(done.error());
   {
     gl::PassState state;
     state.viewport = {0, 0, columns, rows};
@@ -224,24 +226,14 @@ void TintedPasses::begin(const TintedFrame& frame, const TintedLight& light) {
 }
 
 // Where a surface may be lit: there alone anything is summed up and written.
-void TintedPasses::mark(const TintedFrame& frame, const TintedLight& light, bool veils) {
+void TintedPasses::mark(const TintedFrame& frame, const TintedLight& light) {
   gl::PassState state = screenState(frame);
   const gl::StencilFace write{.pass = gl::StencilOp::replace};
   state.stencil = {.test = true, .reference = kMark, .writeMask = kMark, .front = write, .back = write};
-  if (veils) {
-    state.stencil.compare = gl::Compare::equal;
-    state.stencil.reference = kMark | kVeiledBit;
-    state.stencil.readMask = kVeiledBit;
-  }
   state.scissor = light.litArea;
   gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
-  pass.use(veils ? programs_->veiled : programs_->receivers);
-  pass.uniforms(0, block_);
+  pass.use(programs_->receivers);
   pass.storage(1, bits_);
-  if (veils) {
-    pass.storage(2, frame.veils.pixels());
-    pass.storage(3, frame.veils.veils());
-  }
   pass.texture(0, frame.target.ids());
   pass.draw(screen_, 3);
 }
@@ -305,7 +297,7 @@ void TintedPasses::addToVeils(const TintedFrame& frame, const gl::Rect& area, Co
   gl::PassState state = frame.placement;
   // What is behind the opaque surface is before no veil.
   state.depth = {.test = counted == before, .pass = gl::Compare::greater, .write = false, .clamp = true};
-  state.stencil = where(kMark, kMark);
+  state.stencil = where(kVeiledBit, kVeiledBit);
   state.scissor = area;
   gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
   pass.use(programs_->volumeLayers);
@@ -321,7 +313,7 @@ void TintedPasses::sum(const TintedFrame& frame, const TintedLight& light) {
   const gl::Rect area = gl::intersect(light.volumeArea, light.litArea);
   begin(frame, light);
   if (light.litArea.empty()) return;
-  mark(frame, light, false);
+  mark(frame, light);
   if (area.empty()) return;
   if (byStencil_)
     for (const Counted counted : kAllCounted) countOpaque(frame, area, counted);
@@ -329,64 +321,107 @@ void TintedPasses::sum(const TintedFrame& frame, const TintedLight& light) {
 }
 
 void TintedPasses::sumVeils(const TintedFrame& frame, const TintedLight& light) {
-  {
-    gl::PassState state = screenState(frame);
-    state.stencil.writeMask = kMark;
-    gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
-    pass.clearStencil(0);
-  }
-  if (light.litArea.empty()) return;
-  mark(frame, light, true);
-  if (frame.block.litLayers == 0) return;
   veilSums_.clear();
   const gl::Rect area = gl::intersect(light.volumeArea, light.litArea);
   if (area.empty()) return;
   for (const Counted counted : kAllCounted) addToVeils(frame, area, counted);
 }
 
-void TintedPasses::writeTints(const TintedFrame& frame, const TintedLight& light, const gl::Program& program,
-                              const gl::StencilState& where) {
-  if (light.litArea.empty()) return;
-  gl::PassState state = screenState(frame);
-  state.stencil = where;
-  state.scissor = light.litArea;
-  gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
-  pass.use(program);
-  pass.uniforms(0, block_);
+bool TintedPasses::countsOpaque() const {
+  return byStencil_ && passSides_.opaque + passCaps_.opaque + failSides_.opaque + failCaps_.opaque +
+                               static_cast<std::size_t>(atEye_.opaque != 0) >
+                           0;
+}
+
+// All that shaders ask of surfaces and sums, but the block.
+void TintedPasses::bindSurfaces(gl::Pass& pass, const TintedFrame& frame) {
   pass.uniforms(1, shading_);
   pass.storage(0, faces_);
   pass.storage(1, bits_);
   pass.storage(2, frame.veils.pixels());
   pass.storage(3, frame.veils.veils());
-  pass.storage(4, tints_);
-  pass.storage(5, veilSums_);
   pass.texture(0, frame.target.ids());
   const auto& sums = frame.target.tints().sums;
   for (unsigned i = 0; i < sums.size(); ++i) pass.texture(1 + i, sums[i]);
-  pass.draw(screen_, 3);
-  pass.publishStorage();
 }
 
-void TintedPasses::addLit(const TintedFrame& frame, const TintedLight& light) {
+// draw(where, block): pixels with veils, by what becomes of their opaque surfaces: those that are marked alone may be lit; what opaque casters have darkened is not marked alone any more.
+template <class Draw>
+void TintedPasses::forEachVeiled(const Draw& draw) {
+  draw(where(kMark | kVeiledBit, 0xff), block_);
+  draw(where(kVeiledBit, kMark | kVeiledBit), darkBlock_);
+  if (countsOpaque()) draw(where(kMark | kVeiledBit, 0xff, gl::Compare::less), darkBlock_);
+}
+
+void TintedPasses::writeTints(const TintedFrame& frame, const TintedLight& light) {
+  tints_.clear();
   if (light.litArea.empty()) return;
+  const auto draw = [&](const gl::Program& program, const gl::StencilState& where, const gl::Buffer& block) {
+    gl::PassState state = screenState(frame);
+    state.stencil = where;
+    state.scissor = light.litArea;
+    gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
+    pass.use(program);
+    pass.uniforms(0, block);
+    bindSurfaces(pass, frame);
+    pass.storage(4, tints_);
+    pass.storage(5, veilSums_);
+    pass.draw(screen_, 3);
+    pass.publishStorage();
+  };
+  draw(programs_->reach, where(kMark, 0xff), block_);
+  if (frame.veils.count() > 0)
+    forEachVeiled(
+        [&](const gl::StencilState& where, const gl::Buffer& block) { draw(programs_->reachVeils, where, block); });
+}
+
+// Of the surfaces that nothing is before.
+void TintedPasses::addAmbient(const TintedFrame& frame, const gl::Buffer& shading, const gl::StencilState& where) {
   gl::PassState state = screenState(frame);
-  state.stencil = where(kMark, 0xff);
-  state.scissor = light.litArea;
   state.colourWrite = true;
-  state.blend = gl::Blend::add;
+  state.stencil = where;
   gl::Pass pass(frame.scope, frame.target.sumTarget(), state);
-  pass.use(programs_->lit);
-  pass.uniforms(0, block_);
-  pass.uniforms(1, shading_);
-  pass.storage(0, faces_);
-  pass.storage(5, colours_);
+  pass.use(programs_->ambient);
+  pass.uniforms(1, shading);
+  pass.storage(1, frame.scene.triangles());
+  pass.storage(2, frame.scene.corners());
+  pass.storage(4, colours_);
   pass.texture(0, frame.target.ids());
-  const auto& sums = frame.target.tints().sums;
-  for (unsigned i = 0; i < sums.size(); ++i) pass.texture(1 + i, sums[i]);
   pass.draw(screen_, 3);
 }
 
-// What opaque casters have darkened is not marked alone any more, and stays dark.
+// A new picture has ambient light alone where nothing else arrives; what of that is drawn where there are veils is drawn over.
+void TintedPasses::addLit(const TintedFrame& frame, const TintedLight& light, Toward toward) {
+  const bool isNew = toward == Toward::newPicture;
+  if (isNew) {
+    gl::PassState state = screenState(frame);
+    state.colourWrite = true;
+    gl::Pass(frame.scope, frame.target.sumTarget(), state).clearColour({0.0f, 0.0f, 0.0f, 0.0f});
+    addAmbient(frame, shading_, where(0, kMark | kVeiledBit));
+    if (countsOpaque()) addAmbient(frame, shading_, where(kMark, kMark | kCountBits, gl::Compare::less));
+  }
+  const auto draw = [&](const gl::Program& program, const gl::StencilState& where, const gl::Buffer& block) {
+    gl::PassState state = screenState(frame);
+    state.stencil = where;
+    if (!isNew) state.scissor = light.litArea;
+    state.colourWrite = true;
+    state.blend = isNew ? gl::Blend::off : gl::Blend::add;
+    gl::Pass pass(frame.scope, frame.target.sumTarget(), state);
+    pass.use(program);
+    pass.uniforms(0, block);
+    bindSurfaces(pass, frame);
+    pass.storage(4, veilSums_);
+    pass.storage(5, colours_);
+    pass.storage(7, passing_);
+    pass.draw(screen_, 3);
+    pass.publishStorage();  // nothing is written; but llvmpipe draws later, from buffers that the next light has filled anew
+  };
+  draw(programs_->lit, where(kMark, 0xff), block_);
+  if (frame.veils.count() > 0)
+    forEachVeiled(
+        [&](const gl::StencilState& where, const gl::Buffer& block) { draw(programs_->litVeiled, where, block); });
+}
+
 Result<void> TintedPasses::reach(const TintedFrame& frame, const TintedLight& light, Toward toward,
                                  const PhaseEnd& ended) {
   const auto end = [&](const char* phase) {
@@ -394,43 +429,31 @@ Result<void> TintedPasses::reach(const TintedFrame& frame, const TintedLight& li
     gl::finish();
     ended(phase);
   };
-  const bool veils = frame.veils.count() > 0;
-  if (veils || toward == Toward::tints) tints_.clear();
-  if (auto done = setBlock(frame, light.number); !done) return done;
+  if (auto done = setBlock(frame, light.number, toward); !done) return done;
+  if (frame.lightsVeils()) {
+    sumVeils(frame, light);
+    end("volumes at veils");
+  }
   sum(frame, light);
   end("volumes");
-  if (toward == Toward::picture)
-    addLit(frame, light);
-  else
-    writeTints(frame, light, programs_->reach, where(kMark, 0xff));
-  if (veils) writeTints(frame, light, programs_->reachVeiled, where(kMark | kVeiledBit, 0xff));
-  end("lit");
-  if (!veils) return {};
-  sumVeils(frame, light);
-  end("volumes at veils");
-  writeTints(frame, light, programs_->reachVeils, where(kMark, kMark));
+  if (toward == Toward::tints)
+    writeTints(frame, light);
+  else if (!light.litArea.empty() || toward == Toward::newPicture)
+    addLit(frame, light, toward);
   end("lit");
   return {};
 }
 
 Result<void> TintedPasses::beginPicture(const TintedFrame& frame, const gl::Buffer& shading) {
-  const bool veils = frame.veils.count() > 0;
-  if (auto done = setBlock(frame, 0); !done) return done;
+  if (auto done = setBlock(frame, 0, Toward::tints); !done) return done;
   gl::PassState state = screenState(frame);
   state.colourWrite = true;
-  if (veils) state.stencil = where(0, kVeiledBit);
-  {
-    gl::Pass pass(frame.scope, frame.target.sumTarget(), state);
-    pass.clearColour({0.0f, 0.0f, 0.0f, 0.0f});
-    pass.use(programs_->ambient);
-    pass.uniforms(1, shading);
-    pass.storage(1, frame.scene.triangles());
-    pass.storage(2, frame.scene.corners());
-    pass.storage(4, colours_);
-    pass.texture(0, frame.target.ids());
-    pass.draw(screen_, 3);
+  gl::Pass(frame.scope, frame.target.sumTarget(), state).clearColour({0.0f, 0.0f, 0.0f, 0.0f});
+  if (frame.veils.count() == 0) {
+    addAmbient(frame, shading, {});
+    return {};
   }
-  if (!veils) return {};
+  addAmbient(frame, shading, where(0, kVeiledBit));
   state.stencil = where(kVeiledBit, kVeiledBit);
   gl::Pass pass(frame.scope, frame.target.sumTarget(), state);
   pass.use(programs_->ambientVeiled);
@@ -446,26 +469,20 @@ Result<void> TintedPasses::beginPicture(const TintedFrame& frame, const gl::Buff
   return {};
 }
 
-Result<void> TintedPasses::addLight(const TintedFrame& frame, int light, Toward reached) {
-  const bool veils = frame.veils.count() > 0;
-  if (reached == Toward::picture && !veils) return {};
-  if (auto done = setBlock(frame, light); !done) return done;
+Result<void> TintedPasses::addLight(const TintedFrame& frame, int light) {
+  if (auto done = setBlock(frame, light, Toward::tints); !done) return done;
   gl::PassState state = screenState(frame);
   state.colourWrite = true;
   state.blend = gl::Blend::add;
-  if (reached == Toward::picture) state.stencil = where(kVeiledBit, kVeiledBit);
   gl::Pass pass(frame.scope, frame.target.sumTarget(), state);
   pass.use(programs_->light);
   pass.uniforms(0, block_);
-  pass.uniforms(1, shading_);
-  pass.storage(0, faces_);
-  pass.storage(2, frame.veils.pixels());
-  pass.storage(3, frame.veils.veils());
+  bindSurfaces(pass, frame);
   pass.storage(4, tints_);
   pass.storage(5, colours_);
   pass.storage(7, passing_);
-  pass.texture(0, frame.target.ids());
   pass.draw(screen_, 3);
+  pass.publishStorage();  // as addLit() does
   return {};
 }
 

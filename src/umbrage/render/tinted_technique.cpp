@@ -142,11 +142,16 @@ class TintedTechnique final : public detail::CardTechnique {
                      shadow::FrameStats& stats, const PhaseEnd& ended) override {
     auto seen = begin(scope, target, frame, &options, ended);
     if (!seen) return tl::unexpected(seen.error());
-    if (auto done = own_->passes->beginPicture(*seen, own_->shading); !done) return done;
+    // One hard light, or the first of several, is drawn with the ambient light.
+    const bool inOne = !frame.lights.empty() && !isSoft(frame.lights[0]);
+    if (!inOne)
+      if (auto done = own_->passes->beginPicture(*seen, own_->shading); !done) return done;
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-      const Toward toward = isSoft(frame.lights[i]) ? Toward::tints : Toward::picture;
+      const bool soft = isSoft(frame.lights[i]);
+      const Toward toward = soft ? Toward::tints : inOne && i == 0 ? Toward::newPicture : Toward::picture;
       if (auto done = light(*seen, frame, i, toward, stats, ended); !done) return done;
-      if (auto done = own_->passes->addLight(*seen, static_cast<int>(i), toward); !done) return done;
+      if (soft)
+        if (auto done = own_->passes->addLight(*seen, static_cast<int>(i)); !done) return done;
     }
     own_->passes->endPicture(*seen, own_->shading);
     if (ended) {
@@ -212,7 +217,8 @@ class TintedTechnique final : public detail::CardTechnique {
                      .target = target,
                      .veils = own_->veils,
                      .placement = {},
-                     .block = blockOf(view_, frame)};
+                     .block = blockOf(view_, frame),
+                     .shading = shading};
     seen.placement.viewport = {0, 0, camera.width, camera.height};
     for (const auto& done : {own_->view.setOne(viewBlock(view_, geometry_->surfaces.origin, Vec4(0.0))),
                              own_->shading.setOne(shading), target.needTints(), target.needTiles(),
@@ -285,7 +291,7 @@ class TintedTechnique final : public detail::CardTechnique {
     told.reason = "the mean of " + std::to_string(sums.samples()) + " points of the light; each: " + told.reason;
     told.soft = shadow::SoftStats{sums.samples(), error};
     if (auto done = sums.mean(seen, *own_->passes); !done) return done;
-    return own_->passes->setShading(withLight(shadingBlock(frame.camera), frame.camera, light));
+    return own_->passes->setShading(withLight(seen.shading, frame.camera, light));
   }
 
   Result<void> hardLight(const TintedFrame& seen, const shadow::Frame& frame, std::size_t number,
@@ -301,7 +307,7 @@ class TintedTechnique final : public detail::CardTechnique {
     counted.add(eye);
     const TintedLight gpu{.number = static_cast<int>(number),
                           .view = viewBlock(view_, surfaces.origin, homogeneous),
-                          .shading = withLight(shadingBlock(frame.camera), frame.camera, light),
+                          .shading = withLight(seen.shading, frame.camera, light),
                           .volumeArea = volumeArea(view_, geometry_->casters.bounds, counted, homogeneous,
                                                    surfaces.origin, seen.placement),
                           .litArea = litArea(view_, light, seen.placement)};
