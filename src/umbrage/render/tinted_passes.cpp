@@ -156,9 +156,10 @@ Result<void> TintedPasses::setLight(const TintedFrame& frame, const TintedLight&
                            bits_.setAll(packLightBits(facing, side)), tints_.reserve(kTintBytes * surfaces),
                            veilSums_.reserve(frame.lightsVeils() ? kVeilSumBytes * frame.veils.count() : 0)})
     if (!done) return done;
-  for (const Counted counted : kAllCounted)
-    if (auto done = counted_[counted].setOne(
-            std::array{static_cast<std::int32_t>(counted), frame.block.litLayers, frame.block.width, 0});
+  for (std::size_t i = 0; i < counted_.size(); ++i)
+    if (auto done =
+            counted_[i].setOne(std::array{static_cast<std::int32_t>(i % kAllCounted.size()), frame.block.litLayers,
+                                          frame.block.width, i < kAllCounted.size() ? 1 : 0});
         !done)
       return done;
   return {};
@@ -291,9 +292,8 @@ void TintedPasses::addTinted(const TintedFrame& frame, const gl::Rect& area, Cou
 }
 
 void TintedPasses::addToVeils(const TintedFrame& frame, const gl::Rect& area, Counted counted) {
-  const IndexRange sides = counted == everywhere ? IndexRange{} : (counted == behind ? failSides_ : passSides_).all();
-  const IndexRange caps = counted == behind ? IndexRange{} : (counted == before ? passCaps_ : failCaps_).all();
-  if (sides.count + caps.count == 0) return;
+  const PieceRange& sides = counted == behind ? failSides_ : passSides_;
+  const PieceRange& caps = counted == before ? passCaps_ : failCaps_;
   gl::PassState state = frame.placement;
   // What is behind the opaque surface is before no veil.
   state.depth = {.test = counted == before, .pass = gl::Compare::greater, .write = false, .clamp = true};
@@ -301,11 +301,15 @@ void TintedPasses::addToVeils(const TintedFrame& frame, const gl::Rect& area, Co
   state.scissor = area;
   gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
   pass.use(programs_->volumeLayers);
-  pass.uniforms(1, counted_[counted]);
   pass.storage(3, frame.veils.pixels());
   pass.storage(4, frame.veils.veils());
   pass.storage(5, veilSums_);
-  drawPieces(pass, frame, sides, caps);
+  const auto draw = [&](const IndexRange& s, const IndexRange& c, std::size_t place) {
+    pass.uniforms(1, counted_[place + counted]);
+    drawPieces(pass, frame, counted == everywhere ? IndexRange{} : s, counted == behind ? IndexRange{} : c);
+  };
+  draw(sides.ofOpaque(), caps.ofOpaque(), 0);
+  draw(sides.ofTinted(), caps.ofTinted(), kAllCounted.size());
   pass.publishStorage();
 }
 

@@ -107,8 +107,8 @@ class TintedPasses {
   std::unique_ptr<Programs> programs_;
   gl::Buffer faces_, bits_, block_, darkBlock_, view_, shading_, pieces_, farPoints_, tints_, veilSums_, colours_,
       passing_;
-  std::array<gl::Buffer, 3> counted_;
-  gl::Buffer quads_, triangles_;  ///< indices of sides and of caps, piece by piece
+  std::array<gl::Buffer, 6> counted_;  ///< of opaque casters, then of veils
+  gl::Buffer quads_, triangles_;       ///< indices of sides and of caps, piece by piece
   gl::VertexArray quadVertices_{quads_}, triangleVertices_{triangles_}, screen_;
   std::size_t patterns_ = 0;  ///< pieces that the indices reach
   PieceRange passSides_, passCaps_, failSides_, failCaps_;
