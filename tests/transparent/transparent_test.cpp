@@ -110,6 +110,12 @@ TEST_F(TransparentGl, ClosePanesShadowEachOther) {
     EXPECT_LE(c.otherVeils, c.pixels / 50) << name;  // along the rims
     EXPECT_LE(c.off, c.surfaces / 10000) << name;
   }
+  const auto before = shade("transparent", scene, camera, lights),
+             behind = shade("transparent_zfail", scene, camera, lights);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    EXPECT_EQ(before.masks[i].tint, behind.masks[i].tint);
+    EXPECT_EQ(before.masks[i].veils, behind.masks[i].veils);
+  }
 }
 
 TEST_F(TransparentGl, ThousandsOfVeilsOfAPixelAreSorted) {
