@@ -4,6 +4,7 @@
 #include <umbrage_shaders/screen_vert.hpp>
 #include <umbrage_shaders/tinted_ambient_frag.hpp>
 #include <umbrage_shaders/tinted_encode_frag.hpp>
+#include <umbrage_shaders/tinted_farthest_frag.hpp>
 #include <umbrage_shaders/tinted_light_frag.hpp>
 #include <umbrage_shaders/tinted_lit_frag.hpp>
 #include <umbrage_shaders/tinted_lit_veiled_frag.hpp>
@@ -106,6 +107,7 @@ struct TintedPasses::Programs {
       volume{shaders::kTintedVolumeVert, shaders::kTintedVolumeFrag},
       volumeCount{shaders::kTintedVolumeVert, shaders::kVolumeFrag},
       volumeLayers{shaders::kTintedVolumeVert, shaders::kTintedVolumeLayersFrag},
+      farthest{shaders::kScreenVert, shaders::kTintedFarthestFrag},
       reach{shaders::kScreenVert, shaders::kTintedReachFrag},
       reachVeils{shaders::kScreenVert, shaders::kTintedReachVeilsFrag},
       ambient{shaders::kScreenVert, shaders::kAmbientFrag},
@@ -291,15 +293,27 @@ void TintedPasses::addTinted(const TintedFrame& frame, const gl::Rect& area, Cou
   drawPieces(pass, frame, sides, caps);
 }
 
+void TintedPasses::findFarthest(const TintedFrame& frame, const gl::Rect& area) {
+  gl::PassState state = screenState(frame);
+  state.depth = {.test = true, .pass = gl::Compare::always, .write = true, .clamp = true};
+  state.scissor = area;
+  gl::Pass pass(frame.scope, frame.target.tints().veils, state);
+  pass.use(programs_->farthest);
+  pass.uniforms(0, block_);
+  pass.storage(2, frame.veils.pixels());
+  pass.storage(3, frame.veils.veils());
+  pass.draw(screen_, 3);
+}
+
 void TintedPasses::addToVeils(const TintedFrame& frame, const gl::Rect& area, Counted counted) {
   const PieceRange& sides = counted == behind ? failSides_ : passSides_;
   const PieceRange& caps = counted == before ? passCaps_ : failCaps_;
   gl::PassState state = frame.placement;
-  // What is behind the opaque surface is before no veil.
+  // What is behind the farthest veil is before none.
   state.depth = {.test = counted == before, .pass = gl::Compare::greater, .write = false, .clamp = true};
-  state.stencil = where(kVeiledBit, kVeiledBit);
+  if (counted != before) state.stencil = where(kVeiledBit, kVeiledBit);
   state.scissor = area;
-  gl::Pass pass(frame.scope, frame.target.stencilTarget(), state);
+  gl::Pass pass(frame.scope, counted == before ? frame.target.tints().veils : frame.target.stencilTarget(), state);
   pass.use(programs_->volumeLayers);
   pass.storage(3, frame.veils.pixels());
   pass.storage(4, frame.veils.veils());
@@ -328,6 +342,7 @@ void TintedPasses::sumVeils(const TintedFrame& frame, const TintedLight& light) 
   veilSums_.clear();
   const gl::Rect area = gl::intersect(light.volumeArea, light.litArea);
   if (area.empty()) return;
+  if (passSides_.all().count + passCaps_.all().count > 0) findFarthest(frame, area);
   for (const Counted counted : kAllCounted) addToVeils(frame, area, counted);
 }
 

@@ -95,6 +95,7 @@ class TintedPasses {
   void drawPieces(gl::Pass& pass, const TintedFrame& frame, const IndexRange& sides, const IndexRange& caps);
   void countOpaque(const TintedFrame& frame, const gl::Rect& area, Counted counted);
   void addTinted(const TintedFrame& frame, const gl::Rect& area, Counted counted);
+  void findFarthest(const TintedFrame& frame, const gl::Rect& area);
   void addToVeils(const TintedFrame& frame, const gl::Rect& area, Counted counted);
   void bindSurfaces(gl::Pass& pass, const TintedFrame& frame);
   template <class Draw>
