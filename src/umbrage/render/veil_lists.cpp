@@ -26,8 +26,17 @@ constexpr std::size_t kSpilledBytes = 16, kVeilBytes = 8;
 constexpr std::size_t kLeast = 1 << 16;
 // Places of their own for so many veils of each pixel, where they take no more than so much memory: one counter for all costs processors twice as much as the veils themselves.
 constexpr std::size_t kMostSlots = 4, kSlotBytes = std::size_t{64} << 20;
-// Sorting by insertion takes no more than 65,535 rounds for so many veils of a pixel in runs of so many.
-constexpr std::uint32_t kRun = 32, kMostInRuns = 2048;
+// Runs that are sorted by insertion, where no pixel has more veils than `most`: so that none takes more than 65,535 rounds (veil_merge.frag).
+struct Runs {
+  std::uint32_t most, run;
+};
+constexpr std::array kRuns{Runs{256, 256}, Runs{2048, 32}};
+
+std::uint32_t runFor(std::uint32_t most) {
+  for (const Runs& r : kRuns)
+    if (most <= r.most) return r.run;
+  return 1;
+}
 
 struct Lists {
   std::int32_t width;
@@ -143,7 +152,7 @@ void VeilLists::place(gl::HostScope& scope) {
 }
 
 Result<void> VeilLists::sort(gl::HostScope& scope, const Input& input) {
-  std::uint32_t run = counts_.most <= kMostInRuns ? kRun : 1;
+  std::uint32_t run = runFor(counts_.most);
   if (auto done = setRun(run); !done) return done;
   if (run > 1) eachPixel(scope, input, programs_->sort);
   for (; run < counts_.most; run *= 2) {
