@@ -16,7 +16,12 @@ layout(location = 2) flat in ivec4 weight;
 void main() {
   uvec2 own = pixel[int(gl_FragCoord.y) * width + int(gl_FragCoord.x)];
   uint count = min(own.y, uint(litLayers)), first = 0u;  // before which it lies
-  while (counted != 2 && first < count && gl_FragCoord.z <= uintBitsToFloat(veil[own.x + first].y)) ++first;
+  for (uint end = counted != 2 ? count : 0u; first < end;) {
+    uint middle = (first + end) / 2u;
+    bool isBehind = gl_FragCoord.z <= uintBitsToFloat(veil[own.x + middle].y);
+    first = isBehind ? middle + 1u : first;
+    end = isBehind ? end : middle;
+  }
   ivec4 w = gl_FrontFacing ? weight : -weight;
   // What counts behind is added to the first, and taken away where it ends. A loop, since rasterisers on the processor work out all that stands in branches.
   bool behind = counted == 1;
