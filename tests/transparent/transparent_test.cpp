@@ -225,6 +225,28 @@ TEST_F(TransparentGl, DrawsThePictureThatIsPaintedFromItsMasks) {
   }
 }
 
+// Where veils were is marked in the stencil of the pictures drawn into, which outlives the scene.
+TEST_F(TransparentGl, WhatWasDrawnBeforeLeavesNoTrace) {
+  auto opaque = soup(200, 1.2, 9);
+  for (scene::Material& material : opaque.materials) material.opacity = 1.0;
+  const auto camera = cameraAt({-7, -6, 4}, {0.2, 0.1, -0.3});
+  const auto lights = fourLights();
+  const auto technique = makeTransparent(sharedContext(), {});
+  const gl::CurrentContext current(sharedContext());
+  auto used = render::GpuFrame::make(camera.width, camera.height),
+       fresh = render::GpuFrame::make(camera.width, camera.height);
+  ASSERT_TRUE(used && fresh);
+  const auto draw = [&](const scene::Scene& scene, render::GpuFrame& frame) {
+    EXPECT_TRUE(technique->prepare(shadow::makeGeometry(scene)));
+    EXPECT_TRUE(technique->draw(frame, {.camera = camera, .lights = lights}, {.materials = scene.materials}));
+    const gl::HostScope scope;
+    return gl::readRgba(scope, frame.pictureTarget(), camera.width, camera.height);
+  };
+  draw(soup(600, 1.2, 5), *used);
+  const auto after = draw(opaque, *used), alone = draw(opaque, *fresh);
+  EXPECT_TRUE(std::ranges::equal(after.pixels(), alone.pixels()));
+}
+
 TEST_F(TransparentGl, EmptyScenesAndDegenerateTrianglesAreTaken) {
   Builder empty;
   empty.material(Vec3(0.5), 0.5);

@@ -223,7 +223,7 @@ void TintedPasses::begin(const TintedFrame& frame, const TintedLight& light) {
     for (int i = 0; i < state.colourTargets; ++i) pass.clearColour(parts[static_cast<std::size_t>(i)], i);
   }
   gl::PassState counts = screenState(frame);
-  counts.stencil.writeMask = kMark | kCountBits;
+  if (frame.veils.count() > 0) counts.stencil.writeMask = kMark | kCountBits;
   gl::Pass pass(frame.scope, frame.target.stencilTarget(), counts);
   pass.clearStencil(byStencil_ ? static_cast<std::uint8_t>(atEye_.opaque & kCountBits) : 0);
 }
