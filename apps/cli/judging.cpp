@@ -71,7 +71,8 @@ Result<std::vector<VeilAgreement>> compareVeilsOf(const Drawing& a, const Drawin
   const bool swapped = a.traits.name == name;
   const shadow::Frame frame{
       .camera = view.camera, .lights = view.lights, .veilLayers = view.veilLayers, .soft = view.soft};
-  return compareVeils((swapped ? b : a).shading, (swapped ? a : b).shading, frame, toleranceOf(a, b), **truth);
+  return compareVeils((swapped ? b : a).shading, (swapped ? a : b).shading, frame, geometry->filters, toleranceOf(a, b),
+                      **truth);
 }
 
 image::RgbImage differencePicture(const Drawing& a, const Drawing& b) {

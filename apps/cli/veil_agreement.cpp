@@ -1,6 +1,7 @@
 #include "veil_agreement.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "umbrage/shadow/true_edges.hpp"
 
@@ -9,6 +10,10 @@ namespace {
 
 constexpr std::size_t kMostLookedAt = 256;  // light with more suspicious veils is simply wrong
 constexpr int kSamples = 32;                // a pixel, along each axis
+constexpr double kSnap = 0x1p-8;            // pixels to which rasterisers snap corners
+constexpr int kSnapSamples = 16;
+constexpr float kSameDepth =
+    0x1p-12f;  // relative: so much it changes within the snapping where seen at a grazing angle
 
 bool differ(const shadow::Tint& a, const shadow::Tint& b) {
   const Vec3 apart = glm::abs(shadow::partsOf(a) - shadow::partsOf(b));
@@ -31,8 +36,11 @@ bool edgeBetween(const Lit& a, const Lit& b, std::size_t k) {
   return a.veils.size() != b.veils.size() || (k < a.veils.size() && differ(a.light[k], b.light[k]));
 }
 
+// Which of two neighbours shows at their common edge is left to rounding.
 bool shownAlike(const Lit& a, const Lit& b) {
-  return std::ranges::equal(a.veils, b.veils, {}, &shadow::Veil::triangle, &shadow::Veil::triangle);
+  return std::ranges::equal(a.veils, b.veils, [](const shadow::Veil& v, const shadow::Veil& w) {
+    return v.triangle == w.triangle || std::abs(v.depth - w.depth) <= kSameDepth * w.depth;
+  });
 }
 
 struct Suspect {
@@ -80,23 +88,51 @@ class Search {
   int tolerance_;
 };
 
-Result<bool> samplesShowEdge(const shadow::Frame& frame, const scene::Light& light, const Suspect& suspect,
-                             shadow::Technique& truth) {
+// What is within the snapping of corners of a pixel's centre.
+scene::Camera aroundCentre(const scene::Camera& camera, const Suspect& suspect) {
+  scene::Camera fine = shadow::magnified(camera, suspect.x + 0.5, suspect.y + 0.5, 1);
+  fine.fovY = Angle::radians(fine.fovY.radians() * 2.0 * kSnap / fine.height);
+  fine.width = fine.height = kSnapSamples;
+  return fine;
+}
+
+// fn(a, b) on the light of two samples: whether an edge lies between them.
+template <class Fn>
+Result<bool> samplesShow(const shadow::Frame& frame, const scene::Camera& camera, const scene::Light& light,
+                         shadow::Technique& truth, const Fn& fn) {
   shadow::Frame fine = frame;
-  fine.camera = shadow::magnified(frame.camera, suspect.x + 0.5, suspect.y + 0.5, kSamples);
+  fine.camera = camera;
   fine.lights = {&light, 1};
   const auto shading = truth.shade(fine);
   if (!shading) return tl::unexpected(shading.error());
   const Lit first = litAt(*shading, 0, 0);
   for (std::size_t pixel = 1; pixel < shading->surface.triangle.size(); ++pixel)
-    if (edgeBetween(first, litAt(*shading, 0, pixel), suspect.veil)) return true;
+    if (fn(first, litAt(*shading, 0, pixel))) return true;
   return false;
+}
+
+// Beside a border of two filters a rasteriser shows one and may count the volume's side between them as it is before the other.
+bool otherFilter(const Lit& a, const Lit& b, std::size_t last, const shadow::Filters& filters) {
+  for (std::size_t k = 0; k <= last && k < std::min(a.veils.size(), b.veils.size()); ++k)
+    if (filters.of(a.veils[k].triangle) != filters.of(b.veils[k].triangle)) return true;
+  return false;
+}
+
+Result<bool> edgeThere(const shadow::Frame& frame, const scene::Light& light, const Suspect& suspect,
+                       const shadow::Filters& filters, shadow::Technique& truth) {
+  const auto edge = [&](const Lit& a, const Lit& b) { return edgeBetween(a, b, suspect.veil); };
+  const scene::Camera wide = shadow::magnified(frame.camera, suspect.x + 0.5, suspect.y + 0.5, kSamples);
+  if (const auto shown = samplesShow(frame, wide, light, truth, edge); !shown || *shown) return shown;
+  return samplesShow(frame, aroundCentre(frame.camera, suspect), light, truth, [&](const Lit& a, const Lit& b) {
+    return edge(a, b) || otherFilter(a, b, suspect.veil, filters);
+  });
 }
 
 }  // namespace
 
 Result<std::vector<VeilAgreement>> compareVeils(const shadow::Shading& mine, const shadow::Shading& reference,
-                                                const shadow::Frame& frame, int tolerance, shadow::Technique& truth) {
+                                                const shadow::Frame& frame, const shadow::Filters& filters,
+                                                int tolerance, shadow::Technique& truth) {
   std::vector<VeilAgreement> lights;
   const auto width = static_cast<std::size_t>(frame.camera.width);
   for (std::size_t i = 0; i < reference.masks.size(); ++i) {
@@ -109,7 +145,7 @@ Result<std::vector<VeilAgreement>> compareVeils(const shadow::Shading& mine, con
                       agreement, suspects);
     agreement.astray = suspects.size();
     for (std::size_t k = 0; k < suspects.size() && suspects.size() <= kMostLookedAt; ++k) {
-      const auto edge = samplesShowEdge(frame, frame.lights[i], suspects[k], truth);
+      const auto edge = edgeThere(frame, frame.lights[i], suspects[k], filters, truth);
       if (!edge) return tl::unexpected(edge.error());
       if (*edge) --agreement.astray;
     }

@@ -15,12 +15,14 @@ struct VeilAgreement {
   [[nodiscard]] bool holds() const { return astray == 0; }
 };
 
-/// Per light of `frame`. An edge is where neighbours within `tolerance` pixels have another number of veils, or other light on the one at the same place in
-/// the order of depth; or where 32 x 32 samples a pixel by `truth` show the like within one pixel.
+/// Per light of `frame`. Veils are shown alike where they are as many and at the same depths: which of two neighbours shows at their common edge is left to rounding.
+/// An edge is where neighbours within `tolerance` pixels have another number of veils, or other light on the one at the same place in the order of depth; or where samples by `truth` show
+/// the like within one pixel: 32 x 32 of them, and 16 x 16 within 1/256 pixel of its centre, the grid to which rasterisers snap corners; there a border of two of `filters` is an edge, too.
 /// REQUIRES: both are of `frame`, by techniques that are tinted; `truth` is prepared for its geometry and tinted. Errors: the truth's own.
 [[nodiscard]] Result<std::vector<VeilAgreement>> compareVeils(const shadow::Shading& mine,
                                                               const shadow::Shading& reference,
-                                                              const shadow::Frame& frame, int tolerance,
+                                                              const shadow::Frame& frame,
+                                                              const shadow::Filters& filters, int tolerance,
                                                               shadow::Technique& truth);
 
 }  // namespace umbrage::cli

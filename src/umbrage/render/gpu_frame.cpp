@@ -58,6 +58,12 @@ Result<void> GpuFrame::needTints() {
     sum = std::move(*made);
     colours.push_back(&sum);
   }
+  auto veilDepth = gl::Texture::make(gl::Format::depth32f, width(), height());
+  if (!veilDepth) return tl::unexpected(veilDepth.error());
+  tints_.veilDepth = std::move(*veilDepth);
+  auto veils = gl::Framebuffer::make(nullptr, &tints_.veilDepth);
+  if (!veils) return tl::unexpected(veils.error());
+  tints_.veils = std::move(*veils);
   auto bare = gl::Framebuffer::make(colours[0], nullptr);
   if (!bare) return tl::unexpected(bare.error());
   tints_.bare = std::move(*bare);

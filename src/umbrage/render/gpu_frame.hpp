@@ -18,6 +18,8 @@ struct TintTargets {
   std::array<gl::Texture, kPairs> sums;
   gl::Framebuffer opaque;  ///< all of them, with depth and stencil
   gl::Framebuffer bare;    ///< one picture without depth, for what only writes storage
+  gl::Texture veilDepth;
+  gl::Framebuffer veils;  ///< the depth of veils alone
 };
 
 /// The pictures that a frame is drawn into, of one size: triangle ids with depth and stencil; the tiles of a light's receivers, a mask

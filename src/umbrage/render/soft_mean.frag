@@ -10,8 +10,8 @@ layout(std140, binding = 0) uniform Soft {
   int pixelCount;    // tints of veils come after those of the opaque surfaces
   int light;         // which
   int hasSums;       // else nothing takes anything from the light but what the stencil counts
-  int unused;
-  int unused2;
+  int isFirst;       // light of the picture, which adds the ambient light, too
+  int opaqueDark;    // of pixels with veils: nothing reaches the opaque surface
   int atEyeOpaque;   // where the sums of veils start
   int atEyeRed;
   int atEyeGreen;

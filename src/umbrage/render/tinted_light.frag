@@ -1,5 +1,5 @@
 #version 450 core
-// One light's share of the picture, as light.frag, times what of it arrives; that of the veils apart.
+// One light's share of the picture, as light.frag, times what of it arrives: that of the nearest veil first, and of what lies behind it what it lets through.
 layout(std140, binding = 0) uniform Tinted {
   vec4 eyeHigh;      // the eye in two floats a component, so that position - eye is exact near the eye
   vec4 eyeLow;
@@ -10,8 +10,8 @@ layout(std140, binding = 0) uniform Tinted {
   int pixelCount;    // tints of veils come after those of the opaque surfaces
   int light;         // which
   int hasSums;       // else nothing takes anything from the light but what the stencil counts
-  int unused;
-  int unused2;
+  int isFirst;       // light of the picture, which adds the ambient light, too
+  int opaqueDark;    // of pixels with veils: nothing reaches the opaque surface
   int atEyeOpaque;   // where the sums of veils start
   int atEyeRed;
   int atEyeGreen;
@@ -37,8 +37,8 @@ layout(std430, binding = 0) readonly buffer Faces { Face face[]; };
 layout(std430, binding = 2) readonly buffer Pixels { uvec2 pixel[]; };  // where its veils begin, and how many they are
 layout(std430, binding = 3) readonly buffer Veils { uvec2 veil[]; };    // triangle, with bit 31 where it shows its front; bits of its depth
 layout(std430, binding = 4) readonly buffer Tints { uvec2 tints[]; };      // 16 bits a channel
-layout(std430, binding = 5) readonly buffer Materials { vec4 material[]; };  // linear colour
-layout(std430, binding = 6) buffer VeilLight { vec4 veilLight[]; };
+layout(std430, binding = 5) readonly buffer Materials { vec4 material[]; };  // linear colour, opacity
+layout(std430, binding = 7) readonly buffer Passing { vec4 passing[]; };     // per material: what of the light passes it
 const uint kNone = 0xffffffffu, kId = 0x7fffffffu;
 
 layout(location = 0) out vec4 share;
@@ -61,10 +61,13 @@ void main() {
   vec3 ray = rayCorner.xyz + gl_FragCoord.x * rayX.xyz + gl_FragCoord.y * rayY.xyz;
   uint place = uint(at.y * width + at.x);
   uvec2 own = hasVeils != 0 ? pixel[place] : uvec2(0u);
+  vec3 sum = vec3(0.0), through = vec3(1.0);
   for (uint k = own.x; k < own.x + own.y; ++k) {
-    vec3 before = light == 0 ? vec3(0.0) : veilLight[k].rgb;
-    veilLight[k] = vec4(before + lightOn(veil[k].x & kId, ray, tintAt(uint(pixelCount) + k)), 0.0);
+    uint seen = veil[k].x & kId, m = floatBitsToUint(face[seen].normal.w);
+    sum += through * material[m].a * lightOn(seen, ray, tintAt(uint(pixelCount) + k));
+    through *= passing[m].rgb;
   }
   uint id = texelFetch(ids, at, 0).r;
-  share = id != kNone ? vec4(lightOn(id, ray, tintAt(place)), 0.0) : vec4(0.0);
+  if (id != kNone) sum += through * lightOn(id, ray, tintAt(place));
+  share = vec4(sum, 0.0);
 }

@@ -1,5 +1,5 @@
 #version 450 core
-// What of the light reaches the veils that a pixel shows. Nothing is drawn; tints are written.
+// What of the light reaches the veils that a pixel shows, and the opaque surface behind them. Nothing is drawn; tints are written.
 layout(early_fragment_tests) in;  // the stencil decides before anything is written
 layout(std140, binding = 0) uniform Tinted {
   vec4 eyeHigh;      // the eye in two floats a component, so that position - eye is exact near the eye
@@ -11,8 +11,8 @@ layout(std140, binding = 0) uniform Tinted {
   int pixelCount;    // tints of veils come after those of the opaque surfaces
   int light;         // which
   int hasSums;       // else nothing takes anything from the light but what the stencil counts
-  int unused;
-  int unused2;
+  int isFirst;       // light of the picture, which adds the ambient light, too
+  int opaqueDark;    // of pixels with veils: nothing reaches the opaque surface
   int atEyeOpaque;   // where the sums of veils start
   int atEyeRed;
   int atEyeGreen;
@@ -28,6 +28,12 @@ layout(std140, binding = 1) uniform Shading {
   vec4 sky;         // up, and the ambient light
   vec4 background;  // sRGB
 };
+layout(binding = 0) uniform usampler2D ids;
+// What lies between the opaque surface and the light, in parts as tinted_volume.frag has them.
+layout(binding = 1) uniform sampler2D opaqueRed;
+layout(binding = 2) uniform sampler2D greenBlue;
+layout(binding = 3) uniform sampler2D lowRedGreen;
+layout(binding = 4) uniform sampler2D lowBlue;
 struct Face {
   vec4 normal;   // unit; material as the bits of w
   vec4 corner;   // one of its corners
@@ -39,46 +45,50 @@ layout(std430, binding = 2) readonly buffer Pixels { uvec2 pixel[]; };  // where
 layout(std430, binding = 3) readonly buffer Veils { uvec2 veil[]; };    // triangle, with bit 31 where it shows its front; bits of its depth
 layout(std430, binding = 4) writeonly buffer Tints { uvec2 tints[]; };  // 16 bits a channel
 layout(std430, binding = 5) readonly buffer Sums { int sums[]; };              // four a veil, as tinted_volume_layers.frag has them
-const uint kId = 0x7fffffffu;
+const uint kNone = 0xffffffffu, kId = 0x7fffffffu;
 const uvec2 kFull = uvec2(0xffffffffu, 0xffffu);
 
 uint bitsOf(uint id) { return lightBits[id >> 3] >> (4u * (id & 7u)); }
-bool facesLight(uint id) { return (bitsOf(id) & 1u) != 0u; }
 
-// Along the view, for a ray whose component along it is 1.
-float depthOf(uint id, vec3 ray) {
+ivec4 sumAt(ivec2 at) {
+  vec2 a = texelFetch(opaqueRed, at, 0).xy, b = texelFetch(greenBlue, at, 0).xy;
+  vec2 c = texelFetch(lowRedGreen, at, 0).xy, d = texelFetch(lowBlue, at, 0).xy;
+  return ivec4(int(a.x), (ivec3(int(a.y), int(b.x), int(b.y)) << 10) + ivec3(int(c.x), int(c.y), int(d.x)));
+}
+
+vec3 passingBy(ivec4 sum, ivec3 crossed) {
+  return sum.x != 0 ? vec3(0.0) : clamp(exp2(-scale.x * vec3(sum.yzw + crossed)), 0.0, 1.0);
+}
+
+// A surface where the ray meets it.
+struct Seen {
+  vec3 normal;
+  uint material, bits;
+  float depth;  // along the view, for a ray whose component along it is 1
+};
+
+Seen seenAt(uint id, vec3 ray) {
+  vec4 own = face[id].normal;
   vec3 a = (face[id].corner.xyz - eyeHigh.xyz) - eyeLow.xyz;
-  float slope = dot(face[id].normal.xyz, ray);
-  return slope != 0.0 ? dot(face[id].normal.xyz, a) / slope : 0.0;
+  float slope = dot(own.xyz, ray);
+  return Seen(own.xyz, floatBitsToUint(own.w), bitsOf(id), slope != 0.0 ? dot(own.xyz, a) / slope : 0.0);
 }
 
-bool isLit(uint id, vec3 ray) {
-  bool is = facesLight(id);
-  // A loop, since rasterisers on the processor work out both sides of a condition, but no loop that nobody enters.
-  for (float cosine = cone.w; is && cosine >= -1.0; cosine = -2.0) {
-    vec3 fromLight = ray * depthOf(id, ray) - lamp.xyz;
-    is = dot(fromLight, cone.xyz) >= cosine * length(fromLight);
-  }
-  return is;
+bool isLit(Seen s, vec3 ray) {
+  vec3 fromLight = ray * s.depth - lamp.xyz;
+  return (s.bits & 1u) != 0u && (cone.w < -1.0 || dot(fromLight, cone.xyz) >= cone.w * length(fromLight));
 }
+
+bool liesUpon(Seen a, Seen b, vec3 ray) { return abs((b.depth - a.depth) * dot(ray, a.normal)) <= scale.y; }
 
 // What the way from the eye takes up where it passes a veil: into its shadow where it shows the side that the light sees, else out of it.
-ivec3 crossing(uint seen) {
-  uint id = seen & kId, side = bitsOf(id) >> 1 & 3u;
+ivec3 crossing(uint seen, Seen s) {
+  uint side = s.bits >> 1 & 3u;
   int sense = (side == 1u ? 1 : side == 2u ? -1 : 0) * ((seen & ~kId) != 0u ? 1 : -1);
-  return sense * face[id].filter3.xyz;
+  return sense * face[seen & kId].filter3.xyz;
 }
 
-bool liesUpon(uint a, uint b, vec3 ray) {
-  return abs((depthOf(b, ray) - depthOf(a, ray)) * dot(ray, face[a].normal.xyz)) <= scale.y;
-}
-
-// Of a surface behind the first `before` veils, which took `crossed`.
-uvec2 reaching(uint id, ivec4 sum, uvec2 own, uint before, ivec3 crossed, vec3 ray) {
-  if (sum.x != 0) return uvec2(0u);
-  // Surfaces upon each other do not shadow each other.
-  for (uint k = before; k > 0u && liesUpon(veil[own.x + k - 1u].x & kId, id, ray); --k) crossed -= crossing(veil[own.x + k - 1u].x);
-  vec3 passing = clamp(exp2(-scale.x * vec3(sum.yzw + crossed)), 0.0, 1.0);
+uvec2 coded(vec3 passing) {
   uvec3 code = uvec3(passing * 65535.0 + 0.5);
   return uvec2(code.r | code.g << 16, code.b);
 }
@@ -88,18 +98,30 @@ void main() {
   vec3 ray = rayCorner.xyz + gl_FragCoord.x * rayX.xyz + gl_FragCoord.y * rayY.xyz;
   uvec2 own = pixel[at.y * width + at.x];
   uint lit = uint(litLayers);
-  ivec3 crossed = ivec3(0);
   ivec4 sum = ivec4(atEyeOpaque, atEyeRed, atEyeGreen, atEyeBlue);
+  // By the way from the eye, so far; and by those before that lie upon each other, which do not shadow each other.
+  ivec3 crossed = ivec3(0), upon = ivec3(0);
+  Seen before = Seen(vec3(0.0), 0u, 0u, -1e30);
   uvec2 last = uvec2(0u);
   for (uint k = 0u; k < own.y; ++k) {
     uint i = own.x + k, seen = veil[i].x;
+    Seen s = seenAt(seen & kId, ray);
+    if (!liesUpon(before, s, ray)) upon = ivec3(0);
     if (lit == 0u) {
-      last = isLit(seen & kId, ray) ? kFull : uvec2(0u);
+      last = isLit(s, ray) ? kFull : uvec2(0u);
     } else if (k < lit) {
       sum += ivec4(sums[4u * i], sums[4u * i + 1u], sums[4u * i + 2u], sums[4u * i + 3u]);
-      last = isLit(seen & kId, ray) ? reaching(seen & kId, sum, own, k, crossed, ray) : uvec2(0u);
-      crossed += crossing(seen);
+      last = isLit(s, ray) ? coded(passingBy(sum, crossed - upon)) : uvec2(0u);
     }
     tints[pixelCount + i] = last;
+    ivec3 taken = crossing(seen, s);
+    crossed += taken;
+    upon += taken;
+    before = s;
   }
+  uint id = texelFetch(ids, at, 0).r;
+  if (opaqueDark != 0 || id == kNone) return;
+  Seen s = seenAt(id, ray);
+  if (!liesUpon(before, s, ray)) upon = ivec3(0);
+  if (isLit(s, ray)) tints[at.y * width + at.x] = coded(passingBy(hasSums != 0 ? sumAt(at) : ivec4(0), crossed - upon));
 }

@@ -38,6 +38,7 @@ float linearCode(double srgb) {
       shadow::decodeSrgb(static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(srgb, 0.0, 1.0)))));
 }
 
+using Toward = TintedPasses::Toward;
 using PackedTint = std::array<std::uint32_t, 2>;
 shadow::Tint unpacked(const PackedTint& t) {
   return {static_cast<std::uint16_t>(t[0]), static_cast<std::uint16_t>(t[0] >> 16), static_cast<std::uint16_t>(t[1])};
@@ -127,7 +128,8 @@ class TintedTechnique final : public detail::CardTechnique {
     const VeilOrder order = readSurfaces(*seen, frame.camera, shading);
     clock.end("readback");
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-      if (auto done = light(*seen, frame, i, shading.stats, ended); !done) return tl::unexpected(done.error());
+      if (auto done = light(*seen, frame, i, Toward::tints, shading.stats, ended); !done)
+        return tl::unexpected(done.error());
       shading.masks.push_back(readMask(order, shading));
       if (auto& soft = shading.stats.lights.back().soft) countPenumbra(shading.masks.back(), *soft);
       clock.end("readback");
@@ -140,12 +142,18 @@ class TintedTechnique final : public detail::CardTechnique {
                      shadow::FrameStats& stats, const PhaseEnd& ended) override {
     auto seen = begin(scope, target, frame, &options, ended);
     if (!seen) return tl::unexpected(seen.error());
-    if (auto done = own_->passes->beginPicture(*seen, own_->shading); !done) return done;
+    // One hard light, or the first of several, is drawn with the ambient light.
+    const bool inOne = !frame.lights.empty() && !isSoft(frame.lights[0]);
+    if (!inOne)
+      if (auto done = own_->passes->beginPicture(*seen, own_->shading); !done) return done;
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-      if (auto done = light(*seen, frame, i, stats, ended); !done) return done;
-      if (auto done = own_->passes->addLight(*seen, static_cast<int>(i)); !done) return done;
+      const bool soft = isSoft(frame.lights[i]);
+      const Toward toward = soft ? Toward::tints : inOne && i == 0 ? Toward::newPicture : Toward::picture;
+      if (auto done = light(*seen, frame, i, toward, stats, ended); !done) return done;
+      if (soft)
+        if (auto done = own_->passes->addLight(*seen, static_cast<int>(i)); !done) return done;
     }
-    if (auto done = own_->passes->endPicture(*seen, own_->shading, frame.lights.size()); !done) return done;
+    own_->passes->endPicture(*seen, own_->shading);
     if (ended) {
       gl::finish();
       ended("lit");
@@ -209,7 +217,8 @@ class TintedTechnique final : public detail::CardTechnique {
                      .target = target,
                      .veils = own_->veils,
                      .placement = {},
-                     .block = blockOf(view_, frame)};
+                     .block = blockOf(view_, frame),
+                     .shading = shading};
     seen.placement.viewport = {0, 0, camera.width, camera.height};
     for (const auto& done : {own_->view.setOne(viewBlock(view_, geometry_->surfaces.origin, Vec4(0.0))),
                              own_->shading.setOne(shading), target.needTints(), target.needTiles(),
@@ -244,12 +253,14 @@ class TintedTechnique final : public detail::CardTechnique {
     return out;
   }
 
-  Result<void> light(const TintedFrame& seen, const shadow::Frame& frame, std::size_t number, shadow::FrameStats& stats,
-                     const PhaseEnd& ended) {
+  [[nodiscard]] bool isSoft(const scene::Light& light) const { return traits_.soft && scene::isArea(light); }
+
+  Result<void> light(const TintedFrame& seen, const shadow::Frame& frame, std::size_t number, Toward toward,
+                     shadow::FrameStats& stats, const PhaseEnd& ended) {
     const scene::Light& light = frame.lights[number];
     shadow::LightStats& told = stats.lights.emplace_back();
-    if (traits_.soft && scene::isArea(light)) return softLight(seen, frame, number, told, ended);
-    return hardLight(seen, frame, number, light, told, ended);
+    if (isSoft(light)) return softLight(seen, frame, number, told, ended);
+    return hardLight(seen, frame, number, light, toward, told, ended);
   }
 
   // The mean of the hard light of many points; sixteen at a time, as on the processor.
@@ -266,7 +277,7 @@ class TintedTechnique final : public detail::CardTechnique {
       for (const auto& sample :
            shadow::lightSamples(light, sums.samples(), std::min(kPart, most - sums.samples()), room)) {
         shadow::LightStats one;
-        if (auto done = hardLight(seen, frame, number, sample.light, one, ended); !done) return done;
+        if (auto done = hardLight(seen, frame, number, sample.light, Toward::tints, one, ended); !done) return done;
         if (sums.samples() == 0) told = std::move(one);
         if (auto done = sums.add(seen, *own_->passes, own_->shading, sample, view_.eye); !done) return done;
       }
@@ -280,11 +291,11 @@ class TintedTechnique final : public detail::CardTechnique {
     told.reason = "the mean of " + std::to_string(sums.samples()) + " points of the light; each: " + told.reason;
     told.soft = shadow::SoftStats{sums.samples(), error};
     if (auto done = sums.mean(seen, *own_->passes); !done) return done;
-    return own_->passes->setShading(withLight(shadingBlock(frame.camera), frame.camera, light));
+    return own_->passes->setShading(withLight(seen.shading, frame.camera, light));
   }
 
   Result<void> hardLight(const TintedFrame& seen, const shadow::Frame& frame, std::size_t number,
-                         const scene::Light& light, shadow::LightStats& told, const PhaseEnd& ended) {
+                         const scene::Light& light, Toward toward, shadow::LightStats& told, const PhaseEnd& ended) {
     const auto end = [&](const char* phase) {
       if (ended) ended(phase);
     };
@@ -296,7 +307,7 @@ class TintedTechnique final : public detail::CardTechnique {
     counted.add(eye);
     const TintedLight gpu{.number = static_cast<int>(number),
                           .view = viewBlock(view_, surfaces.origin, homogeneous),
-                          .shading = withLight(shadingBlock(frame.camera), frame.camera, light),
+                          .shading = withLight(seen.shading, frame.camera, light),
                           .volumeArea = volumeArea(view_, geometry_->casters.bounds, counted, homogeneous,
                                                    surfaces.origin, seen.placement),
                           .litArea = litArea(view_, light, seen.placement)};
@@ -330,7 +341,7 @@ class TintedTechnique final : public detail::CardTechnique {
       gl::finish();
       ended("upload");
     }
-    return own_->passes->reach(seen, gpu, ended);
+    return own_->passes->reach(seen, gpu, toward, ended);
   }
 
   [[nodiscard]] VeilOrder readSurfaces(const TintedFrame& seen, const scene::Camera& camera,

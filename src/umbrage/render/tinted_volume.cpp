@@ -202,7 +202,7 @@ bool fitsStencil(const Outline& outline) {
     opaque.edges.push_back(outline.silhouette.edges[e]);
     opaque.edges.back().multiplicity = outline.weights[e].opaque;
   }
-  return shadow::layeringBound(casters, opaque, kSharedStencil) <= kSharedStencil;
+  return shadow::layeringBound(casters, opaque, kTintedStencil) <= kTintedStencil;
 }
 
 std::vector<Vec4f> farPointsOf(const Outline& outline, const VolumeShape& shape) {

@@ -9,6 +9,9 @@
 
 namespace umbrage::render {
 
+/// So many layers are counted in the stencil beside two marks.
+inline constexpr int kTintedStencil = 63;
+
 /// What a piece of a volume adds where it counts: opaque surfaces, and what veils take.
 struct TintWeight {
   std::int32_t opaque = 0;
@@ -40,7 +43,7 @@ struct TintedVolume {
   std::vector<Vec4f> farPoints;   ///< shadow::farPoints
   std::vector<std::int8_t> side;  ///< per caster triangle: Silhouette::side; 0 where it has no part in the volumes
   TintWeight atEye;               ///< where the sums start
-  bool fitsStencil = false;       ///< no ray meets more opaque layers than 7 bits count
+  bool fitsStencil = false;       ///< no ray meets more opaque layers than kTintedStencil
 
   [[nodiscard]] bool hasTinted() const {
     return passSides.tinted + passCaps.tinted + failSides.tinted + failCaps.tinted > 0 ||

@@ -22,10 +22,16 @@ struct Large {
   uvec4 id;
 };
 layout(binding = 0) uniform sampler2D depths;
+layout(std140, binding = 2) uniform Lists {
+  int width;   // of the picture
+  uint slots;  // so many veils of a pixel have places of their own
+  uint run;    // so many veils are sorted already
+};
 layout(std430, binding = 1) readonly buffer LargeTriangles { Large large[]; };
-layout(std430, binding = 2) buffer Counts { uint fragments, veils, most; };
-layout(std430, binding = 3) writeonly buffer Fragments { uvec4 fragment[]; };  // as veil.frag
+layout(std430, binding = 2) buffer Counts { uint veils, spilled, most; };
+layout(std430, binding = 3) writeonly buffer Slots { uvec2 slot[]; };  // as veil.frag
 layout(std430, binding = 4) buffer Pixels { uvec2 pixel[]; };
+layout(std430, binding = 6) writeonly buffer Spilled { uvec4 spill[]; };
 
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
@@ -33,8 +39,12 @@ void main() {
   vec4 plane = large[gl_PrimitiveID].plane;
   float depth = plane.w < 0.0 ? gl_FragCoord.z : toClip[3].z * clamp(dot(plane.xyz, ray), 0.0, plane.w);
   if (depth <= texelFetch(depths, at, 0).r) return;
-  uint place = uint(at.y * textureSize(depths, 0).x + at.x), k = atomicAdd(fragments, 1u);
-  atomicAdd(pixel[place].y, 1u);
-  if (k < uint(fragment.length()))
-    fragment[k] = uvec4(place, large[gl_PrimitiveID].id.x | (gl_FrontFacing ? 0x80000000u : 0u), floatBitsToUint(depth), 0u);
+  uint place = uint(at.y * width + at.x), k = atomicAdd(pixel[place].y, 1u);
+  uvec2 seen = uvec2(large[gl_PrimitiveID].id.x | (gl_FrontFacing ? 0x80000000u : 0u), floatBitsToUint(depth));
+  if (k < slots) {
+    slot[slots * place + k] = seen;
+    return;
+  }
+  uint s = atomicAdd(spilled, 1u);
+  if (s < uint(spill.length())) spill[s] = uvec4(place, k, seen);
 }

@@ -10,6 +10,9 @@
 
 namespace umbrage::render {
 
+/// Of the stencil: set where a pixel has veils, by VeilLists::find(), and left alone by all that follows.
+inline constexpr std::uint8_t kVeiledBit = 0x40;
+
 /// The veils before the opaque surfaces of a frame, on the graphics card: of each pixel all of them, sorted, the nearest first.
 /// REQUIRES: its context is current when it is made, used and destroyed.
 class VeilLists {
@@ -23,15 +26,13 @@ class VeilLists {
     const gl::Buffer &view, &shading;
     gl::PassState placement;
   };
-  /// Draws them once, in any order, and sorts them with compute shaders. Waits for how many they are.
+  /// Draws them once, in any order, and sorts them. Clears the stencil, and marks where they are. Waits for how many they are.
   /// Errors: ErrorCode::device when memory is short, or a buffer of this driver too small for them.
   [[nodiscard]] Result<void> find(gl::HostScope& scope, const Input& input);
   /// There are none.
   void forget() { counts_ = {}; }
 
   [[nodiscard]] std::size_t count() const { return counts_.veils; }
-  /// Of the pixel that has most.
-  [[nodiscard]] std::size_t most() const { return counts_.most; }
 
   /// Per pixel, row by row from the bottom: where its veils begin, and how many they are.
   [[nodiscard]] const gl::Buffer& pixels() const { return pixels_; }
@@ -41,15 +42,22 @@ class VeilLists {
  private:
   struct Programs;
   struct Counts {
-    std::uint32_t fragments = 0, veils = 0, most = 0, unused = 0;
+    std::uint32_t veils = 0, spilled = 0, most = 0, unused = 0;  // as the shaders have them
   };
+  [[nodiscard]] Result<void> makeRoom(const Counts& counts);
+  [[nodiscard]] Result<void> setRun(std::uint32_t run);
   void draw(gl::HostScope& scope, const Input& input);
-  [[nodiscard]] Result<void> makeRoom(std::size_t fragments);
-  void compute(gl::HostScope& scope, const gl::Program& program, std::size_t items);
+  void drawLarge(gl::HostScope& scope, const Input& input);
+  void eachPixel(gl::HostScope& scope, const Input& input, const gl::Program& program);
+  void place(gl::HostScope& scope);
+  [[nodiscard]] Result<void> sort(gl::HostScope& scope, const Input& input);
 
   std::unique_ptr<Programs> programs_;
-  gl::Buffer countsBuffer_, fragments_, pixels_, veils_;
+  gl::Buffer lists_, countsBuffer_, slots_, spilled_, pixels_, veils_, merged_;
+  gl::VertexArray screen_;
   Counts counts_;
+  std::int32_t width_ = 0;
+  std::uint32_t slotCount_ = 0;
 };
 
 }  // namespace umbrage::render
