@@ -15,8 +15,9 @@ const uint kNone = 0xffffffffu;
 layout(std430, binding = 1) readonly buffer Triangles { vec4 triangle[]; };  // unit normal; material as the bits of w
 layout(std430, binding = 2) readonly buffer Corners { uint corner[]; };
 struct Material {
-  vec4 colour;    // linear
+  vec4 colour;    // linear; opacity
   vec4 emission;  // linear
+  vec4 passing;   // what of the light passes it
 };
 layout(std430, binding = 4) readonly buffer Materials { Material material[]; };
 const float kSkyBase = 0.75;

@@ -5,20 +5,14 @@
 #include "umbrage/shadow/facing.hpp"
 
 namespace umbrage::render {
-namespace {
 
-// Struct Material of the shaders.
-struct MaterialRow {
-  Vec4f colour, emission;
-};
-
-std::vector<MaterialRow> rowsOf(std::span<const scene::Material> materials) {
+std::vector<MaterialRow> materialRows(std::span<const scene::Material> materials) {
   std::vector<MaterialRow> rows;
-  for (const scene::Material& m : materials) rows.push_back({Vec4f(Vec3f(m.colour), 1.0f), Vec4f(Vec3f(m.emission), 0.0f)});
+  for (const scene::Material& m : materials)
+    rows.push_back({Vec4f(Vec3f(m.colour), static_cast<float>(m.opacity)), Vec4f(Vec3f(m.emission), 0.0f),
+                    Vec4f(Vec3f(scene::transmittance(m)), 0.0f)});
   return rows;
 }
-
-}  // namespace
 
 Result<void> fit(std::optional<GpuFrame>& frame, int width, int height) {
   if (frame && frame->width() == width && frame->height() == height) return {};
@@ -35,7 +29,7 @@ Result<void> upload(FrameData& data, const View& view, const Vec3& origin, const
   if (options != nullptr) {
     shading.sky = Vec4f(Vec3f(options->up), static_cast<float>(options->light.ambient));
     shading.background = Vec4f(Vec3f(options->light.background), 1.0f);
-    if (auto done = data.materials.setAll(rowsOf(options->materials)); !done) return done;
+    if (auto done = data.materials.setAll(materialRows(options->materials)); !done) return done;
   }
   const ViewBlock block = viewBlock(view, origin, Vec4(0.0));
   if (auto done = data.view.setOne(block); !done) return done;

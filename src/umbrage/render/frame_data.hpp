@@ -10,6 +10,14 @@ namespace umbrage::render {
 
 // What techniques that draw into a GpuFrame share: data of a frame and of its lights on the graphics card, and what comes back from it.
 
+/// Struct Material of the shaders.
+struct MaterialRow {
+  Vec4f colour;    ///< linear; w: opacity
+  Vec4f emission;  ///< linear
+  Vec4f passing;   ///< what of the light passes it
+};
+[[nodiscard]] std::vector<MaterialRow> materialRows(std::span<const scene::Material> materials);
+
 /// Makes `frame` one of this size, if it is not. Errors: those of GpuFrame::make.
 [[nodiscard]] Result<void> fit(std::optional<GpuFrame>& frame, int width, int height);
 

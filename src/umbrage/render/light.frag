@@ -38,8 +38,9 @@ vec3 seenPoint(uint id, vec3 ray) {
 }
 
 struct Material {
-  vec4 colour;    // linear
+  vec4 colour;    // linear; opacity
   vec4 emission;  // linear
+  vec4 passing;   // what of the light passes it
 };
 layout(std430, binding = 4) readonly buffer Materials { Material material[]; };
 

@@ -36,8 +36,12 @@ struct Face {
 layout(std430, binding = 0) readonly buffer Faces { Face face[]; };
 layout(std430, binding = 2) readonly buffer Pixels { uvec2 pixel[]; };  // where its veils begin, and how many they are
 layout(std430, binding = 3) readonly buffer Veils { uvec2 veil[]; };    // triangle, with bit 31 where it shows its front; bits of its depth
-layout(std430, binding = 5) readonly buffer Materials { vec4 material[]; };    // linear colour, opacity
-layout(std430, binding = 7) readonly buffer Passing { vec4 passing[]; };       // per material: what of the light passes it
+struct Material {
+  vec4 colour;    // linear; opacity
+  vec4 emission;  // linear
+  vec4 passing;   // what of the light passes it
+};
+layout(std430, binding = 5) readonly buffer Materials { Material material[]; };
 const uint kNone = 0xffffffffu, kId = 0x7fffffffu;
 const float kSkyBase = 0.75;
 
@@ -46,7 +50,8 @@ layout(location = 0) out vec4 share;
 vec3 ambient(uint id, vec3 ray) {
   vec3 n = face[id].normal.xyz;
   if (dot(n, ray) > 0.0) n = -n;
-  return material[floatBitsToUint(face[id].normal.w)].rgb * sky.w * (kSkyBase + (1.0 - kSkyBase) * dot(n, sky.xyz));
+  Material m = material[floatBitsToUint(face[id].normal.w)];
+  return m.emission.rgb + m.colour.rgb * sky.w * (kSkyBase + (1.0 - kSkyBase) * dot(n, sky.xyz));
 }
 
 void main() {
@@ -56,8 +61,8 @@ void main() {
   vec3 sum = vec3(0.0), through = vec3(1.0);
   for (uint k = own.x; k < own.x + own.y; ++k) {
     uint seen = veil[k].x & kId, m = floatBitsToUint(face[seen].normal.w);
-    sum += through * material[m].a * ambient(seen, ray);
-    through *= passing[m].rgb;
+    sum += through * material[m].colour.a * ambient(seen, ray);
+    through *= material[m].passing.rgb;
   }
   uint id = texelFetch(ids, at, 0).r;
   share = vec4(sum + through * (id != kNone ? ambient(id, ray) : radiance.rgb), 1.0);

@@ -37,8 +37,12 @@ layout(std430, binding = 0) readonly buffer Faces { Face face[]; };
 layout(std430, binding = 2) readonly buffer Pixels { uvec2 pixel[]; };  // where its veils begin, and how many they are
 layout(std430, binding = 3) readonly buffer Veils { uvec2 veil[]; };    // triangle, with bit 31 where it shows its front; bits of its depth
 layout(std430, binding = 4) readonly buffer Tints { uvec2 tints[]; };      // 16 bits a channel
-layout(std430, binding = 5) readonly buffer Materials { vec4 material[]; };  // linear colour, opacity
-layout(std430, binding = 7) readonly buffer Passing { vec4 passing[]; };     // per material: what of the light passes it
+struct Material {
+  vec4 colour;    // linear; opacity
+  vec4 emission;  // linear
+  vec4 passing;   // what of the light passes it
+};
+layout(std430, binding = 5) readonly buffer Materials { Material material[]; };
 const uint kNone = 0xffffffffu, kId = 0x7fffffffu;
 
 layout(location = 0) out vec4 share;
@@ -53,7 +57,7 @@ vec3 lightOn(uint id, vec3 ray, vec3 tint) {
   vec3 n = face[id].normal.xyz, a = (face[id].corner.xyz - eyeHigh.xyz) - eyeLow.xyz;
   float slope = dot(n, ray);
   vec3 towards = lamp.xyz - lamp.w * (slope != 0.0 ? ray * (dot(n, a) / slope) : a);
-  return tint * material[floatBitsToUint(face[id].normal.w)].rgb * radiance.rgb * abs(dot(n, normalize(towards)));
+  return tint * material[floatBitsToUint(face[id].normal.w)].colour.rgb * radiance.rgb * abs(dot(n, normalize(towards)));
 }
 
 void main() {
@@ -64,8 +68,8 @@ void main() {
   vec3 sum = vec3(0.0), through = vec3(1.0);
   for (uint k = own.x; k < own.x + own.y; ++k) {
     uint seen = veil[k].x & kId, m = floatBitsToUint(face[seen].normal.w);
-    sum += through * material[m].a * lightOn(seen, ray, tintAt(uint(pixelCount) + k));
-    through *= passing[m].rgb;
+    sum += through * material[m].colour.a * lightOn(seen, ray, tintAt(uint(pixelCount) + k));
+    through *= material[m].passing.rgb;
   }
   uint id = texelFetch(ids, at, 0).r;
   if (id != kNone) sum += through * lightOn(id, ray, tintAt(place));

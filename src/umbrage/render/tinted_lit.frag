@@ -39,7 +39,12 @@ struct Face {
   ivec4 filter3;  // what a veil takes, in steps; w: 1 for a veil
 };
 layout(std430, binding = 0) readonly buffer Faces { Face face[]; };
-layout(std430, binding = 5) readonly buffer Materials { vec4 material[]; };  // linear colour, opacity
+struct Material {
+  vec4 colour;    // linear; opacity
+  vec4 emission;  // linear
+  vec4 passing;   // what of the light passes it
+};
+layout(std430, binding = 5) readonly buffer Materials { Material material[]; };
 const float kSkyBase = 0.75;
 
 layout(location = 0) out vec4 share;
@@ -63,5 +68,6 @@ void main() {
   vec3 passing = sum.x != 0 || !isLit ? vec3(0.0) : clamp(exp2(-scale.x * vec3(sum.yzw)), 0.0, 1.0);
   vec3 light = passing * radiance.rgb * abs(dot(own.xyz, normalize(towards)));
   if (isFirst != 0) light += sky.w * (kSkyBase + (1.0 - kSkyBase) * dot(slope > 0.0 ? -own.xyz : own.xyz, sky.xyz));
-  share = vec4(material[floatBitsToUint(own.w)].rgb * light, isFirst);
+  Material m = material[floatBitsToUint(own.w)];
+  share = vec4(m.colour.rgb * light + (isFirst != 0 ? m.emission.rgb : vec3(0.0)), isFirst);
 }

@@ -43,8 +43,12 @@ layout(std430, binding = 1) readonly buffer LightBits { uint lightBits[]; };  //
 layout(std430, binding = 2) readonly buffer Pixels { uvec2 pixel[]; };  // where its veils begin, and how many they are
 layout(std430, binding = 3) readonly buffer Veils { uvec2 veil[]; };    // triangle, with bit 31 where it shows its front; bits of its depth
 layout(std430, binding = 4) readonly buffer Sums { int sums[]; };            // four a veil, as tinted_volume_layers.frag has them
-layout(std430, binding = 5) readonly buffer Materials { vec4 material[]; };  // linear colour, opacity
-layout(std430, binding = 7) readonly buffer Passing { vec4 passing[]; };     // per material: what of the light passes it
+struct Material {
+  vec4 colour;    // linear; opacity
+  vec4 emission;  // linear
+  vec4 passing;   // what of the light passes it
+};
+layout(std430, binding = 5) readonly buffer Materials { Material material[]; };
 const uint kNone = 0xffffffffu, kId = 0x7fffffffu;
 const float kSkyBase = 0.75;
 
@@ -90,11 +94,12 @@ ivec3 crossing(uint seen, Seen s) {
   return sense * face[seen & kId].filter3.xyz;
 }
 
-// What a surface of no colour sends to the eye. `reaching`: of the light.
-vec3 lightOn(Seen s, vec3 reaching, vec3 ray) {
+// What a surface sends to the eye. `reaching`: of the light.
+vec3 sentBy(Seen s, vec3 reaching, vec3 ray) {
   vec3 n = dot(s.normal, ray) > 0.0 ? -s.normal : s.normal, towards = lamp.xyz - lamp.w * ray * s.depth;
   float ambient = isFirst != 0 ? sky.w * (kSkyBase + (1.0 - kSkyBase) * dot(n, sky.xyz)) : 0.0;
-  return ambient + reaching * radiance.rgb * abs(dot(n, normalize(towards)));
+  Material m = material[s.material];
+  return (isFirst != 0 ? m.emission.rgb : vec3(0.0)) + m.colour.rgb * (ambient + reaching * radiance.rgb * abs(dot(n, normalize(towards))));
 }
 
 // The background as the picture's codes have it.
@@ -123,9 +128,8 @@ void main() {
       sum += ivec4(sums[4u * i], sums[4u * i + 1u], sums[4u * i + 2u], sums[4u * i + 3u]);
       reaching = isLit(s, ray) ? passingBy(sum, crossed - upon) : vec3(0.0);
     }
-    vec4 colour = material[s.material];
-    all += through * colour.a * colour.rgb * lightOn(s, reaching, ray);
-    through *= passing[s.material].rgb;
+    all += through * material[s.material].colour.a * sentBy(s, reaching, ray);
+    through *= material[s.material].passing.rgb;
     ivec3 taken = crossing(seen, s);
     crossed += taken;
     upon += taken;
@@ -139,7 +143,7 @@ void main() {
     if (!liesUpon(before, s, ray)) upon = ivec3(0);
     bool isDark = opaqueDark != 0 || !isLit(s, ray);
     reaching = isDark ? vec3(0.0) : passingBy(hasSums != 0 ? sumAt(at) : ivec4(0), crossed - upon);
-    all += through * material[s.material].rgb * lightOn(s, reaching, ray);
+    all += through * sentBy(s, reaching, ray);
   }
   share = vec4(all, isFirst);
 }

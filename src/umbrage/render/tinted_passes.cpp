@@ -20,6 +20,7 @@
 
 #include <bit>
 
+#include "umbrage/render/frame_data.hpp"
 #include "umbrage/gl/quirks.hpp"
 #include "umbrage/gl/read_back.hpp"
 
@@ -129,13 +130,7 @@ Result<std::unique_ptr<TintedPasses>> TintedPasses::make(const shadow::Geometry&
 }
 
 Result<void> TintedPasses::setMaterials(std::span<const scene::Material> materials) {
-  std::vector<Vec4f> colours, passing;
-  for (const scene::Material& m : materials) {
-    colours.emplace_back(Vec3f(m.colour), static_cast<float>(m.opacity));
-    passing.emplace_back(Vec3f(scene::transmittance(m)), 0.0f);
-  }
-  if (auto done = colours_.setAll(colours); !done) return done;
-  return passing_.setAll(passing);
+  return materials_.setAll(materialRows(materials));
 }
 
 Result<void> TintedPasses::setBlock(const TintedFrame& frame, int light, Toward toward) {
@@ -404,7 +399,7 @@ void TintedPasses::addAmbient(const TintedFrame& frame, const gl::Buffer& shadin
   pass.uniforms(1, shading);
   pass.storage(1, frame.scene.triangles());
   pass.storage(2, frame.scene.corners());
-  pass.storage(4, colours_);
+  pass.storage(4, materials_);
   pass.texture(0, frame.target.ids());
   pass.draw(screen_, 3);
 }
@@ -430,9 +425,8 @@ void TintedPasses::addLit(const TintedFrame& frame, const TintedLight& light, To
     pass.uniforms(0, block);
     bindSurfaces(pass, frame);
     pass.storage(4, veilSums_);
-    pass.storage(5, colours_);
-    pass.storage(7, passing_);
-    pass.draw(screen_, 3);
+    pass.storage(5, materials_);
+      pass.draw(screen_, 3);
     pass.publishStorage();  // nothing is written; but llvmpipe draws later, from buffers that the next light has filled anew
   };
   draw(programs_->lit, where(kMark, 0xff), block_);
@@ -481,8 +475,7 @@ Result<void> TintedPasses::beginPicture(const TintedFrame& frame, const gl::Buff
   pass.storage(0, faces_);
   pass.storage(2, frame.veils.pixels());
   pass.storage(3, frame.veils.veils());
-  pass.storage(5, colours_);
-  pass.storage(7, passing_);
+  pass.storage(5, materials_);
   pass.texture(0, frame.target.ids());
   pass.draw(screen_, 3);
   return {};
@@ -498,8 +491,7 @@ Result<void> TintedPasses::addLight(const TintedFrame& frame, int light) {
   pass.uniforms(0, block_);
   bindSurfaces(pass, frame);
   pass.storage(4, tints_);
-  pass.storage(5, colours_);
-  pass.storage(7, passing_);
+  pass.storage(5, materials_);
   pass.draw(screen_, 3);
   pass.publishStorage();  // as addLit() does
   return {};
