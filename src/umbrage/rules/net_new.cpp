@@ -154,6 +154,11 @@ AreaNews newsOf(const std::string& name, double size, const Ground& ground, cons
   news.all = visitsOf("", all, times, square);
   news.areaHours = integral([&](sun::Instant t) { return all(t) * square; }, news.all);
   if (news.all.empty()) return news;
+  if (ground.added().size() == 1) {
+    news.visits = news.all;
+    for (Visit& visit : news.visits) visit.building = ground.added().front().name;
+    return news;
+  }
   Spans during;
   for (const Visit& visit : news.all) during.push_back(visit.span);
   for (std::size_t b = 0; b < ground.added().size(); ++b) {

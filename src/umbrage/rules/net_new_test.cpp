@@ -240,6 +240,23 @@ TEST(NetNew, onPointsItIsWhoseBuildingItIs) {
   EXPECT_GE(found, 2u);
 }
 
+// Of one building alone its visits are all there are.
+TEST(NetNew, visitsOfOneBuildingAreAll) {
+  NetNewOptions options;
+  options.times = {{clock(8h), clock(16h)}};
+  options.areas = {{"park", rectangle({-30, 30}, {-10, 50})}};
+  const auto news = netNew(sceneOf({kOld, kTower}), sceneOf({kOld}), kNewYork, options);
+  ASSERT_TRUE(news);
+  const AreaNews& park = news->areas.at(0);
+  ASSERT_FALSE(park.all.empty());
+  ASSERT_EQ(park.visits.size(), park.all.size());
+  for (std::size_t i = 0; i < park.all.size(); ++i) {
+    EXPECT_EQ(park.visits[i].building, "tower");
+    EXPECT_EQ(park.visits[i].span, park.all[i].span);
+    EXPECT_EQ(park.visits[i].most, park.all[i].most);
+  }
+}
+
 TEST(NetNew, daysThatAreToldOf) {
   const VerifyRequest request{kNewYork, kZone, kDate, Sensitivity::never};
   const auto park = areaTargets({{"park", rectangle({-30, 60}, {-10, 80})}}, sceneOf({}), 10.0, 0.0);

@@ -9,11 +9,13 @@
 #include "umbrage/base/check.hpp"
 #include "umbrage/base/file.hpp"
 #include "umbrage/rules/detail/json_reader.hpp"
+#include "umbrage/rules/detail/spans.hpp"
 #include "umbrage/sun/zone.hpp"
 
 namespace umbrage::rules {
 namespace {
 
+using detail::hoursOf;
 using detail::JsonReader;
 using std::chrono::milliseconds;
 
@@ -21,7 +23,6 @@ constexpr std::size_t kLargestFile = 1 << 20;
 constexpr double kDay = 24.0;
 
 milliseconds ofHours(double hours) { return milliseconds(std::llround(hours * 3.6e6)); }
-double hoursOf(milliseconds time) { return double(time.count()) / 3.6e6; }
 milliseconds ofMinutes(double minutes) { return milliseconds(std::llround(minutes * 6e4)); }
 
 // "12-21". A leap year tells real days from others.
