@@ -47,6 +47,34 @@ UMBRAGE_IN_BLOCKS float farthestOf(const float* nearness) {
   return *std::min_element(lanes.begin(), lanes.end());
 }
 
+// Whether all pixels of a block show one triangle, or none.
+UMBRAGE_IN_BLOCKS bool isOne(const std::uint32_t* triangle) {
+  const Int8 first = Int8{} + static_cast<std::int32_t>(triangle[0]);
+  Int8 others{};
+  for (int row = 0; row < kBlock; ++row) others |= reinterpret_cast<const Int8&>(triangle[row * kBlock]) ^ first;
+  return !anyOf(others);
+}
+
+UMBRAGE_VECTOR_UNITS void summarise(const float* nearness, const std::uint32_t* triangle, BlockSummary& out) {
+  const bool one = isOne(triangle);
+  out.triangle = one ? triangle[0] : BlockSummary::kSeveral;
+  out.covered = one && triangle[0] != shadow::kNoTriangle ? ~std::uint64_t{0} : 0;
+  if (!one)
+    for (std::size_t k = 0; k < kBlock * kBlock; ++k)
+      out.covered |= std::uint64_t{triangle[k] != shadow::kNoTriangle} << k;
+  const Float8 none = Float8{} + std::numeric_limits<float>::infinity();
+  Float8 low = none, high{};
+  for (int row = 0; row < kBlock; ++row) {
+    const Float8 v = reinterpret_cast<const Float8&>(nearness[row * kBlock]);
+    const Float8 shown = v > Float8{} ? v : none;
+    low = shown < low ? shown : low, high = v > high ? v : high;
+  }
+  const auto lows = lanesOf<float>(low), highs = lanesOf<float>(high);
+  out.farthest = *std::min_element(lows.begin(), lows.end());
+  out.nearest = *std::max_element(highs.begin(), highs.end());
+  if (out.covered == 0) out.farthest = 0.0f;
+}
+
 // One thread's work on a band.
 struct BandDrawing {
   const Corners& corners;
@@ -59,6 +87,11 @@ struct BandDrawing {
     out.nearness.fillRows(first, last, 0.0f);
     out.triangle.fillRows(first, last, shadow::kNoTriangle);
     farthest.assign(static_cast<std::size_t>((last - first) * out.nearness.columns), 0.0f);
+  }
+
+  void finish() {
+    for (std::size_t i = out.nearness.index(0, first); i < out.nearness.index(0, last); ++i)
+      summarise(out.nearness.blocks[i].pixel.data(), out.triangle.blocks[i].pixel.data(), out.summary[i]);
   }
 
   // Those pixels that single precision left undecided. True when one was drawn.
@@ -154,6 +187,7 @@ Result<void> SurfaceRaster::draw(const PixelSpace& space, const SeenPositions& p
   findAverted(space.eye);
   out.nearness.resize(space.width, space.height);
   out.triangle.resize(space.width, space.height);
+  out.summary.resize(out.triangle.blocks.size());
   edgeOn_.clear();
   if (auto done = bands_.fill(
           surfaces.triangles.size(), space.height,
@@ -166,6 +200,7 @@ Result<void> SurfaceRaster::draw(const PixelSpace& space, const SeenPositions& p
   return parallel::forEach(bands_.count(), [&](int band) {
     BandDrawing drawing(corners, out, band);
     bands_.forEachIn(band, [&](const Patch& patch, std::uint64_t) { raster::draw(drawing, patch); });
+    drawing.finish();
   });
 }
 

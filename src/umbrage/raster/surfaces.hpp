@@ -7,8 +7,17 @@
 
 namespace umbrage::raster {
 
+/// What a block shows, in short.
+struct BlockSummary {
+  static constexpr std::uint32_t kSeveral = shadow::kNoTriangle - 1;  ///< triangles, or one and nothing
+  std::uint32_t triangle = shadow::kNoTriangle;                       ///< what all its pixels show
+  float farthest = 0.0f, nearest = 0.0f;  ///< nearness of its pixels that show a surface; 0 where none does
+  std::uint64_t covered = 0;              ///< those pixels, a bit each
+};
+
 /// What a camera sees, block by block.
 struct SeenBlocks {
+  std::vector<BlockSummary> summary;   ///< per block
   BlockImage<float> nearness;          ///< 1 / w of the pixel space; 0 where there is no surface
   BlockImage<std::uint32_t> triangle;  ///< shadow::kNoTriangle where there is none
 };

@@ -86,6 +86,7 @@ struct Frame {
   /// are lit by themselves. For techniques that are `tinted`.
   std::optional<int> veilLayers = {};
   SoftSampling soft = {};  ///< for techniques that are `soft`; to all others a light is its centre
+  bool surfaceWanted = true;  ///< false: Shading::surface may be left empty, which saves time
   bool detailed = false;   ///< LightStats::choices and volumeFragments are wanted, which take time of their own
 };
 

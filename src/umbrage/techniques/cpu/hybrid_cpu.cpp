@@ -45,12 +45,14 @@ class HybridCpu final : public shadow::Technique {
     shadow::PhaseClock clock(out.stats.phases);
     const double pixels = double(frame.camera.width) * frame.camera.height;
     const auto triangles = double(geometry_->surfaces.triangles.size());
-    const auto tracing = prefersRays(cost::rasterising(triangles, pixels), cost::primaryRays(pixels));
+    const double rasterisingTakes = volumes_->hasSeen(frame.camera) ? 0.0 : cost::rasterising(triangles, pixels);
+    const auto tracing = prefersRays(rasterisingTakes, cost::primaryRays(pixels));
     if (!tracing) return tl::unexpected(tracing.error());
     const bool rasterising = !*tracing;
-    auto surface = rasterising ? rasterised(frame.camera) : trace::visibleSurfaces(rays_->occlusion(), frame.camera);
-    if (!surface) return tl::unexpected(surface.error());
-    out.surface = std::move(*surface);
+    if (rasterising)
+      if (auto done = volumes_->see(frame.camera); !done) return tl::unexpected(done.error());
+    if (!rasterising || frame.surfaceWanted)
+      if (auto done = addSurface(frame.camera, rasterising, out); !done) return tl::unexpected(done.error());
     clock.end("surface");
     for (const scene::Light& light : frame.lights) {
       out.stats.lights.emplace_back();
@@ -75,15 +77,19 @@ class HybridCpu final : public shadow::Technique {
     return true;
   }
 
-  Result<shadow::SurfaceBuffer> rasterised(const scene::Camera& camera) {
-    if (auto done = volumes_->see(camera); !done) return tl::unexpected(done.error());
-    return volumes_->surface();
+  Result<void> addSurface(const scene::Camera& camera, bool rasterising, shadow::Shading& out) {
+    if (!out.surface.triangle.empty()) return {};
+    auto surface = rasterising ? volumes_->surface() : trace::visibleSurfaces(rays_->occlusion(), camera);
+    if (!surface) return tl::unexpected(surface.error());
+    out.surface = std::move(*surface);
+    return {};
   }
 
   Result<shadow::LightMask> traced(const shadow::Frame& frame, const scene::Light& light, shadow::Shading& out,
                                    const std::string& why, shadow::PhaseClock& clock) {
     out.stats.lights.back().method = "ray_traced";
     out.stats.lights.back().reason = "a ray per lit-facing pixel towards the light: " + why;
+    if (auto done = addSurface(frame.camera, true, out); !done) return tl::unexpected(done.error());
     auto mask = rays_->mask(frame.camera, light, out.surface);
     clock.end("shadow");
     return mask;

@@ -22,9 +22,11 @@ class ZPassCpu final : public shadow::Technique {
     shadow::Shading out;
     shadow::PhaseClock clock(out.stats.phases);
     if (auto done = volumes_->see(frame.camera); !done) return tl::unexpected(done.error());
-    auto surface = volumes_->surface();
-    if (!surface) return tl::unexpected(surface.error());
-    out.surface = std::move(*surface);
+    if (frame.surfaceWanted) {
+      auto surface = volumes_->surface();
+      if (!surface) return tl::unexpected(surface.error());
+      out.surface = std::move(*surface);
+    }
     clock.end("surface");
     for (const scene::Light& light : frame.lights) {
       if (auto done = volumes_->look(light, frame.silhouettes, clock); !done) return tl::unexpected(done.error());
