@@ -131,7 +131,7 @@ Result<void> ShadowCount::plan(const Request& request) {
   const Corners corners{request.positions.mapped, space.map(silhouette.light)};
   request_.emplace(request);
   if (auto done = depths_.find(request.seen, request.receivers); !done) return done;
-  const SideMaker makeSide(space, corners, casters_, silhouette.light, request.room);
+  const SideMaker makeSide(space, corners, *casters_, silhouette.light, request.room);
   const std::size_t sides = silhouette.edges.size();
   return bands_.fill(
       sides + request.invisible.size(), space.height,
@@ -147,7 +147,7 @@ Result<void> ShadowCount::count(const std::function<void(const Counted&)>& use) 
   UMBRAGE_CHECK(request_.has_value(), "plan() first");
   const Request& request = *request_;
   const Corners corners{request.positions.mapped, request.space.map(request.silhouette.light)};
-  eyeCount_ = countAtEye(casters_, request.silhouette, request.space, corners);
+  eyeCount_ = countAtEye(*casters_, request.silhouette, request.space, corners);
   return parallel::forEach(bands_.count(), [&](int band) {
     BandCounting counting(request, corners, depths_, band);
     bands_.forEachIn(band, [&](const Patch& patch, std::uint64_t tiles) { addPatch(counting, patch, tiles); });

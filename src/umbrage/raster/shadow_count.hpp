@@ -17,7 +17,9 @@ namespace umbrage::raster {
 /// shows no receiver behind the side, none. So the cost goes with the length of the sides' borders more than with their area.
 class ShadowCount {
  public:
-  explicit ShadowCount(const shadow::CasterSet& casters) : casters_(casters) {}
+  explicit ShadowCount(const shadow::CasterSet& casters) : casters_(&casters) {}
+  /// Others. Memory is kept.
+  void use(const shadow::CasterSet& casters) { casters_ = &casters, request_.reset(); }
 
   struct Request {
     const PixelSpace& space;
@@ -52,7 +54,7 @@ class ShadowCount {
   [[nodiscard]] int eyeCount() const { return eyeCount_; }  ///< of the last count
 
  private:
-  const shadow::CasterSet& casters_;
+  const shadow::CasterSet* casters_;
   ReceiverDepths depths_;
   Bands bands_;
   std::optional<Request> request_;

@@ -37,6 +37,8 @@ class SurfaceRaster {
  public:
   /// REQUIRES: `geometry` outlives this.
   explicit SurfaceRaster(const shadow::Geometry& geometry, Drawn drawn = Drawn::all);
+  /// Another geometry, which outlives this. Memory is kept.
+  void use(const shadow::Geometry& geometry);
 
   /// `positions`: those of the geometry, mapped by `space`.
   /// 1. Left out are triangles in whose plane the eye lies (liesInPlane): nothing is seen of them. Those of them that cast are `edgeOn`.
@@ -49,7 +51,7 @@ class SurfaceRaster {
  private:
   [[nodiscard]] bool make(const PixelSpace& space, const SeenPositions& positions, std::uint32_t triangle, Patch& out);
   void findAverted(const Vec3& eye);
-  const shadow::Geometry& geometry_;
+  const shadow::Geometry* geometry_;
   Drawn drawn_;
   std::vector<std::uint8_t> veiled_;  ///< per component, where veils are left out
   std::vector<std::uint8_t> averted_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <string>
 #include <variant>
 
@@ -13,10 +14,21 @@ using raster::Int8;
 using raster::kBlock;
 
 CpuVolumes::CpuVolumes(std::shared_ptr<const shadow::Geometry> geometry)
-    : geometry_(std::move(geometry)),
-      casterOf_(geometry_->surfaces.triangles.size(), shadow::kNoTriangle),
-      surfaces_(*geometry_),
-      count_(geometry_->casters) {
+    : geometry_(std::move(geometry)), surfaces_(*geometry_), count_(geometry_->casters) {
+  findCasters();
+}
+
+void CpuVolumes::use(std::shared_ptr<const shadow::Geometry> geometry) {
+  surfaces_.use(*geometry);
+  count_.use(geometry->casters);
+  geometry_ = std::move(geometry);
+  camera_.reset();
+  finder_.reset();
+  findCasters();
+}
+
+void CpuVolumes::findCasters() {
+  casterOf_.assign(geometry_->surfaces.triangles.size(), shadow::kNoTriangle);
   const std::vector<std::uint32_t>& origin = geometry_->casters.surfaceTriangle;
   for (std::uint32_t t = 0; t < origin.size(); ++t) casterOf_[origin[t]] = t;
 }
@@ -127,7 +139,13 @@ struct MaskBlock {
 // Lit are those of `receivers` with nothing counted.
 UMBRAGE_VECTOR_UNITS void paintBlock(const raster::ShadowCount::Counted& counted, std::uint64_t receivers,
                                      std::uint64_t covered, MaskBlock& out) {
-  if (counted.pixels == nullptr && counted.whole != 0) receivers = 0;
+  if (counted.pixels == nullptr) {
+    if (counted.whole != 0) receivers = 0;
+    if ((receivers == 0 || receivers == ~std::uint64_t{0}) && covered == ~std::uint64_t{0}) {
+      out.light.fill(receivers == 0 ? 0 : 255), out.covered.fill(1);
+      return;
+    }
+  }
   for (int row = 0; row < kBlock; ++row) {
     Bytes lit = spread(receivers >> (row * kBlock) & 0xff);
     if (counted.pixels != nullptr) {
@@ -142,6 +160,13 @@ UMBRAGE_VECTOR_UNITS void paintBlock(const raster::ShadowCount::Counted& counted
 
 void store(const MaskBlock& block, int x, int y, shadow::LightMask& mask) {
   const int width = std::min(kBlock, mask.light.width() - x), height = std::min(kBlock, mask.light.height() - y);
+  if (width == kBlock) {  // a row is one number
+    for (int row = 0; row < height; ++row) {
+      std::memcpy(mask.light.row(y + row) + x, block.light.data() + row * kBlock, kBlock);
+      std::memcpy(mask.covered.row(y + row) + x, block.covered.data() + row * kBlock, kBlock);
+    }
+    return;
+  }
   for (int row = 0; row < height; ++row) {
     std::copy_n(block.light.data() + row * kBlock, width, mask.light.row(y + row) + x);
     std::copy_n(block.covered.data() + row * kBlock, width, mask.covered.row(y + row) + x);

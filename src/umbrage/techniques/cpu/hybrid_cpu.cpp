@@ -35,7 +35,7 @@ class HybridCpu final : public shadow::Technique {
     geometry_ = std::move(geometry);
     rays_.reset();
     missed_ = 0.0;
-    volumes_.emplace(geometry_);
+    volumes_ ? volumes_->use(geometry_) : void(volumes_.emplace(geometry_));
     return {};
   }
 

@@ -13,7 +13,7 @@ class ZPassCpu final : public shadow::Technique {
   const shadow::Traits& traits() const override { return traits_; }
 
   Result<void> prepare(std::shared_ptr<const shadow::Geometry> geometry) override {
-    volumes_.emplace(std::move(geometry));
+    volumes_ ? volumes_->use(std::move(geometry)) : void(volumes_.emplace(std::move(geometry)));
     return {};
   }
 

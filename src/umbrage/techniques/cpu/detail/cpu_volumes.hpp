@@ -16,6 +16,8 @@ class FacingMemo;
 class CpuVolumes {
  public:
   explicit CpuVolumes(std::shared_ptr<const shadow::Geometry> geometry);
+  /// Another geometry, as if made for it; but memory is kept.
+  void use(std::shared_ptr<const shadow::Geometry> geometry);
 
   /// What a camera sees, for the calls that follow. What it saw last it sees again at once.
   /// Errors: ErrorCode::device when memory runs out.
@@ -37,6 +39,7 @@ class CpuVolumes {
 
  private:
   [[nodiscard]] std::uint64_t receiversIn(std::size_t block, FacingMemo& facing) const;
+  void findCasters();
   Result<void> findReceivers(const Vec4& light);
   [[nodiscard]] double depthOf(std::uint32_t triangle, const Vec3& ray) const;
 
