@@ -147,6 +147,7 @@ struct LightStats {
 struct FrameStats {
   std::vector<PhaseTime> phases;  ///< wall-clock, in order; with OpenGL each ends with a finish
   std::vector<LightStats> lights;
+  bool surfaceKept = false;  ///< what the camera sees was known from a frame before
 };
 
 /// One mask per light of the frame, and what the camera sees.

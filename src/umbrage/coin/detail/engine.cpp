@@ -278,6 +278,7 @@ Result<void> Engine::shade(const Scan& scan, const View& view, const Settings& s
     if (auto done = masks_.prepare(world, view, settings.method); !done) return done;
     clock.end("prepare");
     auto reach = masks_.masks(world, view, lights);
+    work_.views = masks_.views();
     if (!reach) return tl::unexpected(reach.error());
     reach_ = std::move(*reach);
     clock.end("shadows");

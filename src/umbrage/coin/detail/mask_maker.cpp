@@ -100,6 +100,7 @@ Result<shadow::Shading> MaskMaker::shade(const View& view, std::span<const scene
     shading = technique_->shade({.camera = *view.pinhole, .lights = lights, .surfaceWanted = surfaceWanted});
   });
   used_ = technique_->traits().name;
+  if (shading && !shading->stats.surfaceKept) ++views_;
   return shading;
 }
 
@@ -165,6 +166,7 @@ Result<void> MaskMaker::look(const World& world, const View& view) {
     return seeThrough(world, view, std::move(shading->surface.triangle));
   }
   auto points = detail::look(*occlusion_, view, Unseen(world, view));
+  ++views_;
   if (!points) return tl::unexpected(points.error());
   sighting_ = {world.geometry, view, points->triangle, {}, std::move(*points)};
   return {};

@@ -35,6 +35,8 @@ class MaskMaker {
   [[nodiscard]] Result<const image::Image<std::uint32_t>*> seen(const World& world, const View& view);
   /// Who made the last masks, as Umbrage names it.
   [[nodiscard]] const std::string& used() const { return used_; }
+  /// Times what a view shows was found.
+  [[nodiscard]] std::size_t views() const { return views_; }
 
  private:
   [[nodiscard]] Result<void> choose(Method method);
@@ -66,6 +68,7 @@ class MaskMaker {
   std::optional<trace::Occlusion> occlusion_;
   std::optional<Sighting> sighting_;
   std::string used_;
+  std::size_t views_ = 0;
 };
 
 }  // namespace umbrage::coin::detail

@@ -45,10 +45,12 @@ class HybridCpu final : public shadow::Technique {
     shadow::PhaseClock clock(out.stats.phases);
     const double pixels = double(frame.camera.width) * frame.camera.height;
     const auto triangles = double(geometry_->surfaces.triangles.size());
-    const double rasterisingTakes = volumes_->hasSeen(frame.camera) ? 0.0 : cost::rasterising(triangles, pixels);
+    const bool seen = volumes_->hasSeen(frame.camera);
+    const double rasterisingTakes = seen ? 0.0 : cost::rasterising(triangles, pixels);
     const auto tracing = prefersRays(rasterisingTakes, cost::primaryRays(pixels));
     if (!tracing) return tl::unexpected(tracing.error());
     const bool rasterising = !*tracing;
+    out.stats.surfaceKept = rasterising && seen;
     if (rasterising)
       if (auto done = volumes_->see(frame.camera); !done) return tl::unexpected(done.error());
     if (!rasterising || frame.surfaceWanted)

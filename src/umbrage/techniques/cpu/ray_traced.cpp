@@ -25,6 +25,7 @@ class RayTraced final : public shadow::Technique {
     UMBRAGE_CHECK(rays_.has_value(), "shade() before prepare()");
     shadow::Shading out;
     shadow::PhaseClock clock(out.stats.phases);
+    out.stats.surfaceKept = camera_ == frame.camera;
     if (auto done = see(frame.camera); !done) return tl::unexpected(done.error());
     clock.end("surface");
     for (const scene::Light& light : frame.lights) {
@@ -34,10 +35,7 @@ class RayTraced final : public shadow::Technique {
       out.stats.lights.push_back({.method = "ray_traced", .reason = "one ray per lit-facing pixel towards the light"});
       clock.end("shadow");
     }
-    // Kept for who knows it already, since then lights move more often than eyes.
-    if (!frame.surfaceWanted) return out;
-    out.surface = std::move(seen_);
-    camera_.reset();
+    if (frame.surfaceWanted) out.surface = seen_;
     return out;
   }
 

@@ -21,6 +21,7 @@ class ZPassCpu final : public shadow::Technique {
     UMBRAGE_CHECK(volumes_.has_value(), "shade() before prepare()");
     shadow::Shading out;
     shadow::PhaseClock clock(out.stats.phases);
+    out.stats.surfaceKept = volumes_->hasSeen(frame.camera);
     if (auto done = volumes_->see(frame.camera); !done) return tl::unexpected(done.error());
     if (frame.surfaceWanted) {
       auto surface = volumes_->surface();
