@@ -32,7 +32,7 @@ TEST(Subsets, TellWhichLightsAreOffWhere) {
   EXPECT_EQ(at(0, 0), 0u);
   EXPECT_EQ(subsets.all[at(3, 2) - 1u].box, (gl::Rect{3, 0, 1, 1}));
   EXPECT_EQ(boxOf(subsets), (gl::Rect{1, 0, 3, 3}));
-  const auto stencil = stencilOf(subsets, 0, {2, 2, 2, 1});
+  const auto stencil = *stencilOf(subsets, 0, {2, 2, 2, 1});
   EXPECT_EQ(std::vector(stencil.begin(), stencil.end()),
             (std::vector<std::uint8_t>{static_cast<std::uint8_t>(at(2, 0)), 0}));
 }
@@ -60,7 +60,7 @@ TEST(Subsets, MoreThanAStencilHoldsTakeTurns) {
   // Every pixel has its turn exactly once.
   std::vector<int> turns(512);
   for (std::size_t round = 0; round < 3; ++round) {
-    const auto stencil = stencilOf(subsets, round, {0, 0, 512, 1});
+    const auto stencil = *stencilOf(subsets, round, {0, 0, 512, 1});
     for (std::size_t x = 0; x < 512; ++x) turns[x] += stencil[x] != kNotNow;
   }
   EXPECT_EQ(turns, std::vector<int>(512, 1));

@@ -122,8 +122,9 @@ Result<void> stamp(const Subsets& subsets, std::size_t round, const gl::Rect& wh
   gl::HostScope scope;
   gl::fillStencil(scope, round == 0 ? std::uint8_t{0} : kNotNow, whole);
   const gl::Rect box = boxOf(subsets);
-  return gl::writeStencil(scope, stencilOf(subsets, round, box),
-                          {whole.x + box.x, whole.y + box.y, box.width, box.height});
+  const auto stencil = stencilOf(subsets, round, box);
+  if (!stencil) return tl::unexpected(stencil.error());
+  return gl::writeStencil(scope, *stencil, {whole.x + box.x, whole.y + box.y, box.width, box.height});
 }
 
 }  // namespace

@@ -168,6 +168,7 @@ Result<Subsets> subsetsOf(std::span<const shadow::LightMask> masks, const Shinin
   });
   if (!found) return tl::unexpected(found.error());
   join(bands, masks.size(), out);
+  if (std::ranges::all_of(bands, [](const Band& band) { return isOwn(band.inAll); })) return out;
   auto renamed = parallel::forEach(static_cast<int>(bands.size()), [&](int band) {
     const std::vector<std::uint16_t>& inAll = bands[static_cast<std::size_t>(band)].inAll;
     if (isOwn(inAll)) return;
@@ -203,15 +204,16 @@ UMBRAGE_VECTOR_UNITS void toStencil(const std::uint16_t* codes, std::size_t coun
   }
 }
 
-image::UnsetVector<std::uint8_t> stencilOf(const Subsets& subsets, std::size_t round, const gl::Rect& box) {
-  const auto width = static_cast<std::size_t>(box.width);
+Result<image::UnsetVector<std::uint8_t>> stencilOf(const Subsets& subsets, std::size_t round, const gl::Rect& box) {
+  const auto width = static_cast<std::size_t>(box.width), stride = static_cast<std::size_t>(subsets.width);
   image::UnsetVector<std::uint8_t> stencil(width * static_cast<std::size_t>(box.height));
-  for (int y = 0; y < box.height; ++y) {
-    const std::size_t from =
-        static_cast<std::size_t>(box.y + y) * static_cast<std::size_t>(subsets.width) + static_cast<std::size_t>(box.x);
-    toStencil(subsets.codes.data() + from, width, static_cast<std::uint16_t>(round * kPerRound),
-              stencil.data() + static_cast<std::size_t>(y) * width);
-  }
+  auto done = parallel::forEach((box.height + kBandRows - 1) / kBandRows, [&](int band) {
+    for (int y = band * kBandRows; y < std::min(box.height, (band + 1) * kBandRows); ++y)
+      toStencil(subsets.codes.data() + static_cast<std::size_t>(box.y + y) * stride + static_cast<std::size_t>(box.x),
+                width, static_cast<std::uint16_t>(round * kPerRound),
+                stencil.data() + static_cast<std::size_t>(y) * width);
+  });
+  if (!done) return tl::unexpected(done.error());
   return stencil;
 }
 

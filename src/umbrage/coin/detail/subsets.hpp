@@ -41,7 +41,8 @@ inline constexpr std::uint8_t kNotNow = 255;
 /// Around all subsets, from the lower left of the picture.
 [[nodiscard]] gl::Rect boxOf(const Subsets& subsets);
 /// The stencil of a round inside a box: i + 1 for the i-th subset of the round, 0 where all lights reach (in the first round), else kNotNow.
-[[nodiscard]] image::UnsetVector<std::uint8_t> stencilOf(const Subsets& subsets, std::size_t round,
-                                                         const gl::Rect& box);
+/// Errors: as subsetsOf().
+[[nodiscard]] Result<image::UnsetVector<std::uint8_t>> stencilOf(const Subsets& subsets, std::size_t round,
+                                                                 const gl::Rect& box);
 
 }  // namespace umbrage::coin::detail
