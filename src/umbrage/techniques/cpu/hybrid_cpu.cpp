@@ -34,6 +34,7 @@ class HybridCpu final : public shadow::Technique {
   Result<void> prepare(std::shared_ptr<const shadow::Geometry> geometry) override {
     geometry_ = std::move(geometry);
     rays_.reset();
+    tracedFor_.reset();
     missed_ = 0.0;
     volumes_ ? volumes_->use(geometry_) : void(volumes_.emplace(geometry_));
     return {};
@@ -50,11 +51,11 @@ class HybridCpu final : public shadow::Technique {
     const auto tracing = prefersRays(rasterisingTakes, cost::primaryRays(pixels));
     if (!tracing) return tl::unexpected(tracing.error());
     const bool rasterising = !*tracing;
-    out.stats.surfaceKept = rasterising && seen;
-    if (rasterising)
-      if (auto done = volumes_->see(frame.camera); !done) return tl::unexpected(done.error());
+    out.stats.surfaceKept = rasterising ? seen : tracedFor_ == frame.camera;
+    if (auto done = rasterising ? volumes_->see(frame.camera) : see(frame.camera); !done)
+      return tl::unexpected(done.error());
     if (!rasterising || frame.surfaceWanted)
-      if (auto done = addSurface(frame.camera, rasterising, out); !done) return tl::unexpected(done.error());
+      if (auto done = addSurface(rasterising, out); !done) return tl::unexpected(done.error());
     clock.end("surface");
     for (const scene::Light& light : frame.lights) {
       out.stats.lights.emplace_back();
@@ -79,9 +80,20 @@ class HybridCpu final : public shadow::Technique {
     return true;
   }
 
-  Result<void> addSurface(const scene::Camera& camera, bool rasterising, shadow::Shading& out) {
+  // By rays.
+  Result<void> see(const scene::Camera& camera) {
+    if (tracedFor_ == camera) return {};
+    tracedFor_.reset();
+    auto surface = trace::visibleSurfaces(rays_->occlusion(), camera);
+    if (!surface) return tl::unexpected(surface.error());
+    traced_ = std::move(*surface);
+    tracedFor_ = camera;
+    return {};
+  }
+
+  Result<void> addSurface(bool rasterised, shadow::Shading& out) {
     if (!out.surface.triangle.empty()) return {};
-    auto surface = rasterising ? volumes_->surface() : trace::visibleSurfaces(rays_->occlusion(), camera);
+    auto surface = rasterised ? volumes_->surface() : Result<shadow::SurfaceBuffer>(traced_);
     if (!surface) return tl::unexpected(surface.error());
     out.surface = std::move(*surface);
     return {};
@@ -91,7 +103,7 @@ class HybridCpu final : public shadow::Technique {
                                    const std::string& why, shadow::PhaseClock& clock) {
     out.stats.lights.back().method = "ray_traced";
     out.stats.lights.back().reason = "a ray per lit-facing pixel towards the light: " + why;
-    if (auto done = addSurface(frame.camera, true, out); !done) return tl::unexpected(done.error());
+    if (auto done = addSurface(true, out); !done) return tl::unexpected(done.error());
     auto mask = rays_->mask(frame.camera, light, out.surface);
     clock.end("shadow");
     return mask;
@@ -121,6 +133,8 @@ class HybridCpu final : public shadow::Technique {
   std::shared_ptr<const shadow::Geometry> geometry_;
   std::optional<CpuVolumes> volumes_;
   std::optional<Rays> rays_;
+  std::optional<scene::Camera> tracedFor_;  ///< whose picture by rays is here
+  shadow::SurfaceBuffer traced_;
   double missed_ = 0.0;  ///< what rays would have saved so far
 };
 
