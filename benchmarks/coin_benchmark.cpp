@@ -1,6 +1,6 @@
 // Frames of a scene of Coin with exact shadows, beside Coin's own SoShadowGroup: one spot light, one model of 10,000 triangles on a floor, in one run.
 //   build/release/bin/umbrage_coin_benchmark [WIDTH HEIGHT [brief]]
-// Times are first quartiles, in milliseconds, and end with a finish; those of the shadow engine's own clocks do not. brief: Coin alone and AUTOMATIC, no others.
+// Times are the least of many frames, in milliseconds, and end with a finish; those of the shadow engine's own clocks do not. brief: Coin alone and AUTOMATIC, no others.
 #include <Inventor/annex/FXViz/nodes/SoShadowGroup.h>
 #include <Inventor/nodes/SoCoordinate3.h>
 #include <Inventor/nodes/SoDirectionalLight.h>
@@ -166,13 +166,8 @@ constexpr struct {
 constexpr std::size_t kCaseCount = std::size(kCases);
 constexpr std::size_t kAnew = kCaseCount - 1;
 
-/// The first quartile: what else the machine does only adds.
-double typical(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
+/// What else the machine does only adds.
+double least(const std::vector<double>& values) { return values.empty() ? 0.0 : *std::ranges::min_element(values); }
 
 /// What a frame of exact shadows is made of, in the order of ShadowReport::phases; Coin's own passes are the last.
 constexpr const char* kPhases[] = {"scene", "geometry", "prepare", "shadows", "sets", "stencil", "drawing"};
@@ -222,7 +217,7 @@ AllSamples sample(Stage& stage, const Scene& scene) {
 
 std::array<double, kCaseCount> frameTimes(const AllSamples& samples) {
   std::array<double, kCaseCount> times{};
-  for (std::size_t c = 0; c < kCaseCount; ++c) times[c] = typical(samples[c].frames);
+  for (std::size_t c = 0; c < kCaseCount; ++c) times[c] = least(samples[c].frames);
   return times;
 }
 
@@ -248,9 +243,9 @@ void printReadings(const AllSamples& samples, const std::array<double, kCaseCoun
   for (std::size_t c = 0; c < kCaseCount; ++c) {
     readings[1].times[c] = readings[0].times[c] - coin[c];
     readings[2].times[c] = readings[0].times[c] - readings[0].times[0];
-    readings[3].times[c] = typical(samples[c].own);
-    readings[4].times[c] = typical(samples[c].ready);
-    readings[5].times[c] = typical(samples[c].phases[kReady]);
+    readings[3].times[c] = least(samples[c].own);
+    readings[4].times[c] = least(samples[c].ready);
+    readings[5].times[c] = least(samples[c].phases[kReady]);
   }
   std::printf("  %-32s %9s %9s %9s %9s   all anew : light, object\n", "", "nothing", "light", "object", "all anew");
   for (const Reading& r : readings) {
@@ -260,7 +255,7 @@ void printReadings(const AllSamples& samples, const std::array<double, kCaseCoun
   }
   for (std::size_t c = 0; c < kCaseCount; ++c) {
     std::printf("  %-22s", kCases[c].name);
-    for (std::size_t k = 0; k < kPhaseCount; ++k) std::printf("  %s %.2f", kPhases[k], typical(samples[c].phases[k]));
+    for (std::size_t k = 0; k < kPhaseCount; ++k) std::printf("  %s %.2f", kPhases[k], least(samples[c].phases[k]));
     std::printf("\n");
   }
 }
