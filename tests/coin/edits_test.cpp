@@ -5,6 +5,7 @@
 #include <Inventor/nodes/SoCylinder.h>
 #include <Inventor/nodes/SoDirectionalLight.h>
 #include <Inventor/nodes/SoMaterial.h>
+#include <Inventor/nodes/SoPerspectiveCamera.h>
 #include <Inventor/nodes/SoPointLight.h>
 #include <Inventor/nodes/SoSphere.h>
 #include <Inventor/nodes/SoSpotLight.h>
@@ -40,7 +41,7 @@ class Editor {
   }
 
   void edit() {
-    switch (number(0, 11)) {
+    switch (number(0, 12)) {
       case 0:
       case 1: return insert();
       case 2: return remove();
@@ -52,6 +53,7 @@ class Editor {
       case 8: return changeLight();
       case 9: return changeRegistry();
       case 10: return putAbove();
+      case 11: return moveEye();
       default: return paint();
     }
   }
@@ -144,6 +146,11 @@ class Editor {
     if (auto* lamp = any<SoPointLight>()) lamp->location = point() + SbVec3f(0, 4, 0);
     if (auto* lamp = any<SoLight>(); lamp != nullptr && number(0, 3) == 0) lamp->on = !lamp->on.getValue();
   }
+  void moveEye() {
+    auto* camera = any<SoPerspectiveCamera>();
+    camera->position = SbVec3f(real(0, 2), real(2.5f, 3.5f), real(7.5f, 8.5f));
+    if (number(0, 1) == 0) camera->heightAngle = real(0.7f, 0.9f);
+  }
   void changeRegistry() {
     SoNode* node = root_->getChild(number(1, root_->getNumChildren() - 1));
     if (node->isOfType(SoCamera::getClassTypeId()) || node->isOfType(SoMaterial::getClassTypeId())) return;
@@ -212,8 +219,10 @@ TEST(Edits, AtRandomLeaveTheShadowsRight) {
     ASSERT_EQ(largestDifference(picture, expected, [](int, int) { return true; }).most, 0) << "edit " << i;
   }
   EXPECT_GT(shadows, samples / 2);
-  std::printf("%zu samples, %zu masks; %zu extractions, %zu poses, %zu builds\n", samples, shadows,
-              manager->work().extractions, manager->work().poses, manager->work().geometryBuilds);
+  const Work& work = manager->work();
+  EXPECT_LT(work.views, work.shades);
+  std::printf("%zu samples, %zu masks; %zu extractions, %zu poses, %zu builds, %zu shades, %zu views\n", samples,
+              shadows, work.extractions, work.poses, work.geometryBuilds, work.shades, work.views);
 }
 
 }  // namespace

@@ -41,8 +41,10 @@ struct Work {
   std::size_t extractions = 0;     ///< shapes whose triangles were asked of Coin
   std::size_t poses = 0;           ///< shapes that only moved
   std::size_t geometryBuilds = 0;  ///< times the casters of the world were put together
-  std::size_t shades = 0;   ///< times shadows were computed; a picture of which nothing changed takes the last ones
-  std::size_t volumes = 0;  ///< volumes extruded, to be drawn or written
+  std::size_t shades = 0;  ///< times shadows were computed; a picture of which nothing changed takes the last ones
+  /// Times what the camera sees was found for them. On the processor, where only a light moved, it is known.
+  std::size_t views = 0;
+  std::size_t volumes = 0;        ///< volumes extruded, to be drawn or written
   std::size_t volumesReused = 0;  ///< volumes that were there already, perhaps at another place
 };
 

@@ -30,7 +30,8 @@ struct ShadowReport {
   std::vector<LightShadow> lights;      ///< in the order in which Coin meets them
   std::size_t passes = 0;               ///< times Coin drew the scene
   /// Milliseconds of wall clock: "scene" (what changed is asked of Coin), "geometry" (put together), "prepare" (what the method builds for a geometry),
-  /// "shadows", "drawing". What needed not be done is not there; drawing is not waited for.
+  /// "shadows", "sets" (which pixels the same lights reach), "stencil" (their numbers are written into it), "drawing" (Coin's passes). What needed not
+  /// be done is not there; drawing is not waited for.
   std::vector<shadow::PhaseTime> phases;
   std::string method;  ///< as Umbrage names it: "hybrid_cpu"
 };

@@ -19,9 +19,10 @@ class Bands {
   /// of tiles touches(patch, row) tells the tiles it is to be looked at in, a bit each, bit 63 for all from there on; none: not in these bands.
   template <class Make, class Touches>
   [[nodiscard]] Result<void> fill(std::size_t count, int height, const Make& make, const Touches& touches) {
-    constexpr std::size_t kPart = 4096;
+    // Enough parts for all threads, none so small that its lists cost more than its patches.
+    const std::size_t size = std::clamp<std::size_t>(count / 16, 128, 4096);
     bands_ = (height + kBand - 1) / kBand;
-    const auto parts = static_cast<int>((count + kPart - 1) / kPart);
+    const auto parts = static_cast<int>((count + size - 1) / size);
     if (parts_.size() < static_cast<std::size_t>(parts)) parts_.resize(static_cast<std::size_t>(parts));
     used_ = static_cast<std::size_t>(parts);
     return parallel::forEach(parts, [&](int number) {
@@ -29,7 +30,7 @@ class Bands {
       part.patches.clear();
       part.inBand.resize(static_cast<std::size_t>(bands_));
       for (auto& list : part.inBand) list.clear();
-      const std::size_t begin = static_cast<std::size_t>(number) * kPart, end = std::min(count, begin + kPart);
+      const std::size_t begin = static_cast<std::size_t>(number) * size, end = std::min(count, begin + size);
       Patch patch;
       for (std::size_t i = begin; i < end; ++i)
         if (make(i, patch)) part.add(patch, touches);

@@ -151,13 +151,20 @@ struct ByPixel {
   }
 };
 
+Result<void> countAll(ShadowCount& count, const Stage& stage, BlockImage<std::int32_t>& out) {
+  out.resize(stage.space.width, stage.space.height);
+  return count.count([&](const ShadowCount::Counted& counted) {
+    for (std::size_t k = 0; k < 64; ++k) out.blocks[counted.block].pixel[k] = counted.at(k);
+  });
+}
+
 void expectSameCounts(const scene::Scene& scene, const scene::Camera& camera, const Vec4& light) {
   const Stage stage(scene, camera);
   const auto silhouette = shadow::findSilhouette(stage.geometry->casters, light);
   ShadowCount count(stage.geometry->casters);
   BlockImage<std::int32_t> counts;
   ASSERT_TRUE(count.plan(stage.request(silhouette)));
-  ASSERT_TRUE(count.count(counts));
+  ASSERT_TRUE(countAll(count, stage, counts));
   const ByPixel byPixel(stage, silhouette);
   for (int y = 0; y < camera.height; ++y)
     for (int x = 0; x < camera.width; ++x) {
@@ -199,7 +206,7 @@ TEST(ShadowCount, GoesFarBeyondWhatEightBitsHold) {
   ShadowCount count(stage.geometry->casters);
   BlockImage<std::int32_t> counts;
   ASSERT_TRUE(count.plan(stage.request(silhouette)));
-  ASSERT_TRUE(count.count(counts));
+  ASSERT_TRUE(countAll(count, stage, counts));
   EXPECT_EQ(counts.at(32, 32), 512);
 }
 
@@ -220,6 +227,33 @@ TEST(SurfaceRaster, LeavesOutAndTellsTrianglesInWhosePlaneTheEyeLies) {
                     cameraAt({5, 0, 0}, {0, 0, 0}, 17, 17));
   EXPECT_EQ(stage.invisible.size(), 2u);
   for (const std::uint64_t bits : stage.receivers) EXPECT_EQ(bits, 0u);
+}
+
+TEST(SurfaceRaster, SummariesSayWhatBlocksShow) {
+  // Steps with gaps between them, and nothing beside them.
+  std::vector<shapes::Mesh> steps;
+  for (int i = 0; i < 9; ++i)
+    steps.push_back(
+        shapes::quad({-9, -9.0 + 2 * i, i}, {9, -9.0 + 2 * i, i}, {9, -7.5 + 2 * i, i}, {-9, -7.5 + 2 * i, i}));
+  const Stage stage(shapes::scene(std::move(steps)), cameraAt({0, -3, 25}, {0, 0, 0}, 611, 353));
+  std::size_t single = 0;
+  for (std::size_t i = 0; i < stage.seen.summary.size(); ++i) {
+    const BlockSummary& summary = stage.seen.summary[i];
+    const auto& triangle = stage.seen.triangle.blocks[i].pixel;
+    const auto& nearness = stage.seen.nearness.blocks[i].pixel;
+    float farthest = std::numeric_limits<float>::infinity(), nearest = 0.0f;
+    for (std::size_t k = 0; k < 64; ++k) {
+      if (triangle[k] == shadow::kNoTriangle) continue;
+      farthest = std::min(farthest, nearness[k]), nearest = std::max(nearest, nearness[k]);
+    }
+    EXPECT_EQ(summary.covered, stage.receivers[i]);
+    EXPECT_EQ(summary.nearest, nearest);
+    EXPECT_EQ(summary.farthest, summary.covered != 0 ? farthest : 0.0f);
+    const bool one = std::ranges::all_of(triangle, [&](std::uint32_t t) { return t == triangle[0]; });
+    EXPECT_EQ(summary.triangle, one ? triangle[0] : BlockSummary::kSeveral);
+    single += one && triangle[0] != shadow::kNoTriangle;
+  }
+  EXPECT_GT(single, 20u);
 }
 
 TEST(SurfaceRaster, AnEmptySceneIsAnEmptyPicture) {

@@ -66,9 +66,13 @@ Result<void> ReceiverDepths::findAll(int columns, int rows,
   });
 }
 
-Result<void> ReceiverDepths::find(const BlockImage<float>& nearness, std::span<const std::uint64_t> receivers) {
-  return findAll(nearness.columns, nearness.rows,
-                 [&](std::size_t block) { return depthsOf(nearness.blocks[block].pixel.data(), receivers[block]); });
+Result<void> ReceiverDepths::find(const SeenBlocks& seen, std::span<const std::uint64_t> receivers) {
+  return findAll(seen.nearness.columns, seen.nearness.rows, [&](std::size_t block) {
+    const BlockSummary& summary = seen.summary[block];
+    if (receivers[block] == 0) return Depths{};
+    if (receivers[block] == summary.covered) return Depths{summary.farthest, summary.nearest};
+    return depthsOf(seen.nearness.blocks[block].pixel.data(), receivers[block]);
+  });
 }
 
 Result<void> ReceiverDepths::find(const BlockImage<float>& nearness, const VeilLayers& veils,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "umbrage/raster/layers.hpp"
+#include "umbrage/raster/surfaces.hpp"
 
 namespace umbrage::raster {
 
@@ -15,9 +16,9 @@ class ReceiverDepths {
   /// Farther than everything, so no patch is nearer: what stands for blocks without such pixels.
   static constexpr float kNothing = 0x1p120f;
 
-  /// `receivers`: per block of `nearness`, bit k is set when pixel k is one of them.
+  /// `receivers`: per block of `seen`, bit k is set when pixel k is one of them.
   /// Errors: ErrorCode::device when memory runs out.
-  [[nodiscard]] Result<void> find(const BlockImage<float>& nearness, std::span<const std::uint64_t> receivers);
+  [[nodiscard]] Result<void> find(const SeenBlocks& seen, std::span<const std::uint64_t> receivers);
 
   /// Nearness of a block's farthest and nearest receiver.
   struct Depths {

@@ -31,17 +31,16 @@ UMBRAGE_IN_BLOCKS bool countInBlock(const BlockPatch& p, const Span& rows, std::
 // One thread's work on a band.
 class BandCounting {
  public:
-  BandCounting(const ShadowCount::Request& request, const Corners& corners, const ReceiverDepths& depths, int band,
-               BlockImage<std::int32_t>& out)
+  BandCounting(const ShadowCount::Request& request, const Corners& corners, const ReceiverDepths& depths, int band)
       : request_(request),
         corners_(corners),
         depths_(depths),
-        out_(out),
+        columns_(request.seen.nearness.columns),
         first_(band * kBandBlocks),
-        last_(std::min(first_ + kBandBlocks, out.rows)),
-        whole_(depths.stride() * static_cast<std::size_t>(last_ - first_), 0) {
-    out.fillRows(first_, last_, 0);
-  }
+        last_(std::min(first_ + kBandBlocks, request.seen.nearness.rows)),
+        whole_(depths.stride() * static_cast<std::size_t>(last_ - first_), 0),
+        isCut_(whole_.size(), 0),
+        pixels_(whole_.size()) {}
 
   UMBRAGE_IN_BLOCKS void add(const Patch& patch, std::uint64_t tiles) {
     forEachEight(
@@ -49,18 +48,24 @@ class BandCounting {
         last_, [&](int column, int row) __attribute__((always_inline)) { addInEight(patch, column, row); });
   }
 
-  // Adds what was counted for whole blocks.
-  void finish(int atEye) {
+  void handOut(int atEye, const std::function<void(const ShadowCount::Counted&)>& use) const {
     for (int row = first_; row < last_; ++row)
-      for (int column = 0; column < out_.columns; ++column) {
-        const std::int32_t whole = atEye + whole_[local(column, row)];
-        for (std::int32_t& count : out_.blocks[out_.index(column, row)].pixel) count += whole;
+      for (int column = 0; column < columns_; ++column) {
+        const std::size_t here = local(column, row);
+        use({index(column, row), atEye + whole_[here], isCut_[here] != 0 ? pixels_[here].pixel.data() : nullptr});
       }
   }
 
  private:
   [[nodiscard]] std::size_t local(int column, int row) const {
     return static_cast<std::size_t>(row - first_) * depths_.stride() + static_cast<std::size_t>(column);
+  }
+  [[nodiscard]] std::size_t index(int column, int row) const { return request_.seen.nearness.index(column, row); }
+
+  // The counts of a block whose pixels do not all count alike.
+  std::int32_t* cut(std::size_t here) {
+    if (isCut_[here] == 0) isCut_[here] = 1, pixels_[here].pixel.fill(0);
+    return pixels_[here].pixel.data();
   }
 
   UMBRAGE_IN_BLOCKS void addInEight(const Patch& patch, int column, int row) {
@@ -73,21 +78,21 @@ class BandCounting {
     addWhere(eight.covered, patch.weight, &whole_[local(column, row)]);
     for (int at = 0; eight.touched != 0; eight.touched &= eight.touched - 1) {
       const int further = std::countr_zero(eight.touched);
-      if (column + further >= out_.columns) return;
+      if (column + further >= columns_) return;
       moveOn(p, further - at);
       at = further;
       BlockPatch here = p;
       here.doubt[3] += 0x1p-20f * p.distance * nearest[further];
-      const std::size_t i = out_.index(column + further, row);
+      const std::size_t i = index(column + further, row);
       if (countInBlock(here, rows, patch.weight, request_.seen.nearness.blocks[i].pixel.data(),
-                       out_.blocks[i].pixel.data()))
+                       cut(local(column + further, row))))
         countUnsure(patch, here, rows, column + further, row);
     }
   }
 
   // The pixels that countInBlock left alone.
   [[gnu::noinline]] void countUnsure(const Patch& patch, const BlockPatch& p, const Span& rows, int column, int row) {
-    const std::size_t i = out_.index(column, row);
+    const std::size_t i = index(column, row);
     for (std::uint64_t left = request_.receivers[i]; left != 0; left &= left - 1) {
       const int bit = std::countr_zero(left), x = bit % kBlock, y = bit / kBlock;
       if (y < rows.begin || y >= rows.end) continue;
@@ -101,16 +106,17 @@ class BandCounting {
       const int px = kBlock * column + x, py = kBlock * row + y;
       if (maybe && !sure && patch.covers(corners_, px, py) &&
           isBefore(corners_, patch, request_.triangles[request_.seen.triangle.blocks[i].pixel[k]], px, py))
-        out_.blocks[i].pixel[k] += patch.weight;
+        pixels_[local(column, row)].pixel[k] += patch.weight;
     }
   }
 
   const ShadowCount::Request& request_;
   const Corners& corners_;
   const ReceiverDepths& depths_;
-  BlockImage<std::int32_t>& out_;
-  int first_, last_;
+  int columns_, first_, last_;
   std::vector<std::int32_t> whole_;
+  std::vector<std::uint8_t> isCut_;  ///< per block: pixels_ counts, too
+  image::UnsetVector<BlockImage<std::int32_t>::Block> pixels_;
 };
 
 UMBRAGE_VECTOR_UNITS void addPatch(BandCounting& band, const Patch& patch, std::uint64_t tiles) {
@@ -124,8 +130,8 @@ Result<void> ShadowCount::plan(const Request& request) {
   const shadow::Silhouette& silhouette = request.silhouette;
   const Corners corners{request.positions.mapped, space.map(silhouette.light)};
   request_.emplace(request);
-  if (auto done = depths_.find(request.seen.nearness, request.receivers); !done) return done;
-  const SideMaker makeSide(space, corners, casters_, silhouette.light, request.room);
+  if (auto done = depths_.find(request.seen, request.receivers); !done) return done;
+  const SideMaker makeSide(space, corners, *casters_, silhouette.light, request.room);
   const std::size_t sides = silhouette.edges.size();
   return bands_.fill(
       sides + request.invisible.size(), space.height,
@@ -137,16 +143,15 @@ Result<void> ShadowCount::plan(const Request& request) {
       [&](const Patch& patch, int row) { return depths_.tilesBehind(patch, row); });
 }
 
-Result<void> ShadowCount::count(BlockImage<std::int32_t>& out) {
+Result<void> ShadowCount::count(const std::function<void(const Counted&)>& use) {
   UMBRAGE_CHECK(request_.has_value(), "plan() first");
   const Request& request = *request_;
   const Corners corners{request.positions.mapped, request.space.map(request.silhouette.light)};
-  eyeCount_ = countAtEye(casters_, request.silhouette, request.space, corners);
-  out.resize(request.space.width, request.space.height);
+  eyeCount_ = countAtEye(*casters_, request.silhouette, request.space, corners);
   return parallel::forEach(bands_.count(), [&](int band) {
-    BandCounting counting(request, corners, depths_, band, out);
+    BandCounting counting(request, corners, depths_, band);
     bands_.forEachIn(band, [&](const Patch& patch, std::uint64_t tiles) { addPatch(counting, patch, tiles); });
-    counting.finish(eyeCount_);
+    counting.handOut(eyeCount_, use);
   });
 }
 

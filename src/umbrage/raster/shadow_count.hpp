@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -16,7 +17,9 @@ namespace umbrage::raster {
 /// shows no receiver behind the side, none. So the cost goes with the length of the sides' borders more than with their area.
 class ShadowCount {
  public:
-  explicit ShadowCount(const shadow::CasterSet& casters) : casters_(casters) {}
+  explicit ShadowCount(const shadow::CasterSet& casters) : casters_(&casters) {}
+  /// Others. Memory is kept.
+  void use(const shadow::CasterSet& casters) { casters_ = &casters, request_.reset(); }
 
   struct Request {
     const PixelSpace& space;
@@ -33,9 +36,16 @@ class ShadowCount {
   /// Finds the sides that may change a pixel. All that `request` names must live until count() is done.
   /// Errors: ErrorCode::device when memory runs out.
   [[nodiscard]] Result<void> plan(const Request& request);
-  /// Per pixel that is to be counted: the caster surfaces between it and the light; 0 when it is lit.
-  /// REQUIRES: plan(). Errors: as plan().
-  [[nodiscard]] Result<void> count(BlockImage<std::int32_t>& out);
+  /// What was counted in a block.
+  struct Counted {
+    std::size_t block;
+    std::int32_t whole;          ///< for all its pixels
+    const std::int32_t* pixels;  ///< for each by itself, to be added; null: nothing
+    [[nodiscard]] std::int32_t at(std::size_t pixel) const { return whole + (pixels != nullptr ? pixels[pixel] : 0); }
+  };
+  /// Counts, per pixel that is to be counted, the caster surfaces between it and the light (0 when it is lit), and hands out block after block, from
+  /// many threads. REQUIRES: plan(). Errors: as plan().
+  [[nodiscard]] Result<void> count(const std::function<void(const Counted&)>& use);
 
   [[nodiscard]] std::size_t sideCount() const { return bands_.patchCount(); }  ///< of the last plan
   [[nodiscard]] std::size_t pieceCount() const {
@@ -44,7 +54,7 @@ class ShadowCount {
   [[nodiscard]] int eyeCount() const { return eyeCount_; }  ///< of the last count
 
  private:
-  const shadow::CasterSet& casters_;
+  const shadow::CasterSet* casters_;
   ReceiverDepths depths_;
   Bands bands_;
   std::optional<Request> request_;

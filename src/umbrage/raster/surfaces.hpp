@@ -7,8 +7,17 @@
 
 namespace umbrage::raster {
 
+/// What a block shows, in short.
+struct BlockSummary {
+  static constexpr std::uint32_t kSeveral = shadow::kNoTriangle - 1;  ///< triangles, or one and nothing
+  std::uint32_t triangle = shadow::kNoTriangle;                       ///< what all its pixels show
+  float farthest = 0.0f, nearest = 0.0f;  ///< nearness of its pixels that show a surface; 0 where none does
+  std::uint64_t covered = 0;              ///< those pixels, a bit each
+};
+
 /// What a camera sees, block by block.
 struct SeenBlocks {
+  std::vector<BlockSummary> summary;   ///< per block
   BlockImage<float> nearness;          ///< 1 / w of the pixel space; 0 where there is no surface
   BlockImage<std::uint32_t> triangle;  ///< shadow::kNoTriangle where there is none
 };
@@ -28,6 +37,8 @@ class SurfaceRaster {
  public:
   /// REQUIRES: `geometry` outlives this.
   explicit SurfaceRaster(const shadow::Geometry& geometry, Drawn drawn = Drawn::all);
+  /// Another geometry, which outlives this. Memory is kept.
+  void use(const shadow::Geometry& geometry);
 
   /// `positions`: those of the geometry, mapped by `space`.
   /// 1. Left out are triangles in whose plane the eye lies (liesInPlane): nothing is seen of them. Those of them that cast are `edgeOn`.
@@ -40,7 +51,7 @@ class SurfaceRaster {
  private:
   [[nodiscard]] bool make(const PixelSpace& space, const SeenPositions& positions, std::uint32_t triangle, Patch& out);
   void findAverted(const Vec3& eye);
-  const shadow::Geometry& geometry_;
+  const shadow::Geometry* geometry_;
   Drawn drawn_;
   std::vector<std::uint8_t> veiled_;  ///< per component, where veils are left out
   std::vector<std::uint8_t> averted_;

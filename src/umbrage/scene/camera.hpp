@@ -23,6 +23,7 @@ struct Camera {
   Angle fovY = Angle::degrees(45);  ///< vertical field of view, in (0, 180) degrees
   int width = 1280;
   int height = 720;
+  friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 /// Unit vectors of a camera: right, up (in the picture) and forward.

@@ -86,6 +86,7 @@ struct Frame {
   /// are lit by themselves. For techniques that are `tinted`.
   std::optional<int> veilLayers = {};
   SoftSampling soft = {};  ///< for techniques that are `soft`; to all others a light is its centre
+  bool surfaceWanted = true;  ///< false: Shading::surface may be left empty, which saves time
   bool detailed = false;   ///< LightStats::choices and volumeFragments are wanted, which take time of their own
 };
 
@@ -146,6 +147,7 @@ struct LightStats {
 struct FrameStats {
   std::vector<PhaseTime> phases;  ///< wall-clock, in order; with OpenGL each ends with a finish
   std::vector<LightStats> lights;
+  bool surfaceKept = false;  ///< what the camera sees was known from a frame before
 };
 
 /// One mask per light of the frame, and what the camera sees.

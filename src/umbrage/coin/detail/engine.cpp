@@ -122,8 +122,9 @@ Result<void> stamp(const Subsets& subsets, std::size_t round, const gl::Rect& wh
   gl::HostScope scope;
   gl::fillStencil(scope, round == 0 ? std::uint8_t{0} : kNotNow, whole);
   const gl::Rect box = boxOf(subsets);
-  return gl::writeStencil(scope, stencilOf(subsets, round, box),
-                          {whole.x + box.x, whole.y + box.y, box.width, box.height});
+  const auto stencil = stencilOf(subsets, round, box);
+  if (!stencil) return tl::unexpected(stencil.error());
+  return gl::writeStencil(scope, *stencil, {whole.x + box.x, whole.y + box.y, box.width, box.height});
 }
 
 }  // namespace
@@ -172,24 +173,33 @@ Result<void> Engine::drawShadowed(SoGLRenderAction* action, const Settings& sett
   passes_ = 0;
   const auto sight = sightOf(state, scan);
   const auto view = sight ? viewOf(*sight) : std::nullopt;
-  const auto subsets = shadowsOf(scan, view, settings, clock);
-  if (auto done = compose(action, subsets ? *subsets : Subsets{}, view, draw); !done) return done;
-  clock.end("drawing");
-  if (!subsets) return tl::unexpected(subsets.error());
+  const auto shadows = shadowsOf(scan, view, settings, clock);
+  if (auto done = compose(action, view, draw, clock); !done) return done;
+  if (!shadows) return shadows;
   if (settings.sceneType == SceneType::visibleVolumes && view) drawVolumes(action, scan, *sight, settings);
   return complaints(scan);
 }
 
-Result<Subsets> Engine::shadowsOf(const Scan& scan, const std::optional<View>& view, const Settings& settings,
-                                  shadow::PhaseClock& clock) {
+Result<void> Engine::shadowsOf(const Scan& scan, const std::optional<View>& view, const Settings& settings,
+                               shadow::PhaseClock& clock) {
   if (scan.shapes.empty() || !view || scan.ownStereo || scan.lights.size() > kMostLights) forgetShadows();
-  if (scan.shapes.empty()) return Subsets{};
+  if (scan.shapes.empty()) return {};
   if (scan.ownStereo) return fail(ErrorCode::unsupported, "no shadows: stereo needs its camera before the group");
   if (!view) return fail(ErrorCode::usage, "no shadows: there is no camera");
   if (scan.lights.size() > kMostLights) return fail(ErrorCode::unsupported, "no shadows: more than 64 lights");
-  if (auto done = shade(scan, *view, settings, clock); !done) return tl::unexpected(done.error());
-  const std::vector<std::uint64_t> shining = shiningOn(scan, builder_.world());
-  return subsetsOf(reach_.masks, {&reach_.triangle, shining});
+  if (auto done = shade(scan, *view, settings, clock); !done) return done;
+  auto shining = shiningOn(scan, builder_.world());
+  if (subsets_ && shining == shining_) return {};
+  subsets_.reset();
+  Result<const image::Image<std::uint32_t>*> seen = nullptr;
+  if (!shining.empty()) seen = masks_.seen(builder_.world(), *view);
+  if (!seen) return tl::unexpected(seen.error());
+  auto subsets = subsetsOf(reach_, {*seen, shining});
+  if (!subsets) return tl::unexpected(subsets.error());
+  subsets_ = std::move(*subsets);
+  shining_ = std::move(shining);
+  clock.end("sets");
+  return {};
 }
 
 Result<void> Engine::complaints(const Scan& scan) {
@@ -269,6 +279,7 @@ Result<void> Engine::shade(const Scan& scan, const View& view, const Settings& s
     if (auto done = masks_.prepare(world, view, settings.method); !done) return done;
     clock.end("prepare");
     auto reach = masks_.masks(world, view, lights);
+    work_.views = masks_.views();
     if (!reach) return tl::unexpected(reach.error());
     reach_ = std::move(*reach);
     clock.end("shadows");
@@ -279,13 +290,15 @@ Result<void> Engine::shade(const Scan& scan, const View& view, const Settings& s
 }
 
 // Every pixel is drawn by exactly one pass, the one whose lights reach it.
-Result<void> Engine::compose(SoGLRenderAction* action, const Subsets& subsets, const std::optional<View>& view,
-                             const Draw& draw) {
-  if (subsets.all.empty()) {
+Result<void> Engine::compose(SoGLRenderAction* action, const std::optional<View>& view, const Draw& draw,
+                             shadow::PhaseClock& clock) {
+  if (!subsets_ || subsets_->all.empty()) {
     ++passes_;
     drawPass(action, draw, Delayed::noted);
+    clock.end("drawing");
     return {};
   }
+  const Subsets& subsets = *subsets_;
   const gl::Rect whole{view->x, view->y, view->width, view->height};
   Delayed delayed = Delayed::noted;
   for (std::size_t round = 0; round < roundsOf(subsets); ++round) {
@@ -293,15 +306,18 @@ Result<void> Engine::compose(SoGLRenderAction* action, const Subsets& subsets, c
       if (delayed == Delayed::noted) drawPass(action, draw, delayed);
       return done;
     }
+    clock.end("stencil");
     const std::size_t first = round * kPerRound, end = std::min(first + kPerRound, subsets.all.size());
     for (std::size_t i = round == 0 ? 0 : first + 1; i <= end; ++i) {
       const Subset* subset = i > 0 ? &subsets.all[i - 1] : nullptr;
       drawSubset(action, subset, static_cast<std::uint8_t>(i - first), whole, draw, delayed);
       delayed = Delayed::astray;
     }
+    clock.end("drawing");
   }
   gl::HostScope scope;
   gl::fillStencil(scope, 0, whole);
+  clock.end("stencil");
   return {};
 }
 
@@ -322,19 +338,23 @@ void Engine::drawSubset(SoGLRenderAction* action, const Subset* subset, std::uin
 void Engine::forgetShadows() {
   geometry_.reset();
   view_.reset();
-  reach_ = {};
+  reach_.clear();
+  subsets_.reset();
   lights_.clear();
   reportIsOld_ = true;
 }
 
-const ShadowReport& Engine::report() const {
+const ShadowReport& Engine::report() {
   if (!reportIsOld_) return report_;
   reportIsOld_ = false;
   report_ = {geometry_, {}, view_ ? view_->pinhole : std::nullopt, {}, passes_, phases_, masks_.used()};
   if (view_ && geometry_ == builder_.world().geometry) report_.unseen = Unseen(builder_.world(), *view_).all();
-  for (std::size_t i = 0; i < reach_.masks.size(); ++i) {
-    report_.lights.push_back({lights_[i].node, lights_[i].light, reach_.masks[i], reach_.masks[i]});
-    cutCone(report_.lights.back().mask, lights_[i].light, *view_, geometry_->surfaces, reach_.triangle);
+  for (std::size_t i = 0; i < reach_.size(); ++i) {
+    const scene::Light& light = lights_[i].light;
+    report_.lights.push_back({lights_[i].node, light, reach_[i], reach_[i]});
+    if (!std::holds_alternative<scene::SpotLight>(light.shape)) continue;
+    if (const auto seen = masks_.seen(builder_.world(), *view_))
+      cutCone(report_.lights.back().mask, light, *view_, geometry_->surfaces, **seen);
   }
   return report_;
 }

@@ -45,7 +45,7 @@ class Engine {
   [[nodiscard]] Registry& registry() { return registry_; }
   [[nodiscard]] const Work& work() const { return work_; }
   [[nodiscard]] Work& work() { return work_; }
-  [[nodiscard]] const ShadowReport& report() const;
+  [[nodiscard]] const ShadowReport& report();
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
  private:
@@ -53,10 +53,10 @@ class Engine {
   void drawVolumes(SoGLRenderAction* action, const Scan& scan, const Sight& sight, const Settings& settings);
   [[nodiscard]] Result<void> shade(const Scan& scan, const View& view, const Settings& settings,
                                    shadow::PhaseClock& clock);
-  [[nodiscard]] Result<Subsets> shadowsOf(const Scan& scan, const std::optional<View>& view, const Settings& settings,
-                                          shadow::PhaseClock& clock);
-  [[nodiscard]] Result<void> compose(SoGLRenderAction* action, const Subsets& subsets, const std::optional<View>& view,
-                                     const Draw& draw);
+  [[nodiscard]] Result<void> shadowsOf(const Scan& scan, const std::optional<View>& view, const Settings& settings,
+                                       shadow::PhaseClock& clock);
+  [[nodiscard]] Result<void> compose(SoGLRenderAction* action, const std::optional<View>& view, const Draw& draw,
+                                     shadow::PhaseClock& clock);
   void drawSubset(SoGLRenderAction* action, const Subset* subset, std::uint8_t stencil, const gl::Rect& whole,
                   const Draw& draw, Delayed delayed);
   [[nodiscard]] static Result<void> complaints(const Scan& scan);
@@ -73,14 +73,16 @@ class Engine {
   std::shared_ptr<const shadow::Geometry> geometry_;
   std::optional<View> view_;
   std::optional<Method> method_;
-  std::vector<Vec4> places_;  ///< of the lights, homogeneous
-  Reach reach_;               ///< whatever the lights' cones
+  std::vector<Vec4> places_;              ///< of the lights, homogeneous
+  std::vector<shadow::LightMask> reach_;  ///< whatever the lights' cones
+  std::optional<Subsets> subsets_;        ///< of it, once they are found; none: everything is lit
+  std::vector<std::uint64_t> shining_;    ///< what they were found for
   // What is told of them, made when asked for:
   std::vector<PlacedLight> lights_;
   std::size_t passes_ = 0;
   std::vector<shadow::PhaseTime> phases_;
-  mutable ShadowReport report_;
-  mutable bool reportIsOld_ = false;
+  ShadowReport report_;
+  bool reportIsOld_ = false;
 };
 
 }  // namespace umbrage::coin::detail

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <thread>
 
-#include "umbrage/coin/detail/ray_masks.hpp"
 #include "umbrage/gl/context.hpp"
 #include "umbrage/techniques/cpu/registry.hpp"
 #include "umbrage/techniques/gl/registry.hpp"
@@ -54,6 +53,7 @@ MaskMaker::~MaskMaker() { drop(); }
 void MaskMaker::drop() {
   elsewhere(runsOnOpenGl(technique_), [&] { technique_.reset(); });
   prepared_.reset();
+  sighting_.reset();
   chosen_.reset();
 }
 
@@ -94,41 +94,40 @@ Result<void> MaskMaker::prepareRays(const World& world) {
   return {};
 }
 
-Result<Reach> MaskMaker::byTechnique(const View& view, std::span<const scene::Light> lights) {
+Result<shadow::Shading> MaskMaker::shade(const View& view, std::span<const scene::Light> lights, bool surfaceWanted) {
   Result<shadow::Shading> shading;
-  elsewhere(runsOnOpenGl(technique_), [&] { shading = technique_->shade({*view.pinhole, lights}); });
-  if (!shading) return tl::unexpected(shading.error());
+  elsewhere(runsOnOpenGl(technique_), [&] {
+    shading = technique_->shade({.camera = *view.pinhole, .lights = lights, .surfaceWanted = surfaceWanted});
+  });
   used_ = technique_->traits().name;
-  return Reach{std::move(shading->surface.triangle), std::move(shading->masks)};
+  if (shading && !shading->stats.surfaceKept) ++views_;
+  return shading;
 }
 
-Result<Reach> MaskMaker::byRays(const World& world, const View& view, std::span<const scene::Light> lights) {
-  auto seen = look(*occlusion_, view, Unseen(world, view));
-  if (!seen) return tl::unexpected(seen.error());
-  Reach reach;
+Result<std::vector<shadow::LightMask>> MaskMaker::byRays(const View& view, std::span<const scene::Light> lights) {
+  std::vector<shadow::LightMask> masks;
   for (const scene::Light& light : lights) {
-    auto mask = rayMask(*occlusion_, view, *seen, light);
+    auto mask = rayMask(*occlusion_, view, *sighting_->points, light);
     if (!mask) return tl::unexpected(mask.error());
-    reach.masks.push_back(std::move(*mask));
+    masks.push_back(std::move(*mask));
   }
   used_ = "ray_traced";
-  reach.triangle = std::move(seen->triangle);
-  return reach;
+  return masks;
 }
 
 namespace {
 
 // Where a technique has seen a triangle that is not drawn; empty: nowhere.
-image::GreyImage missed(const Reach& reach, const Unseen& unseen) {
+image::GreyImage missed(const image::Image<std::uint32_t>& seen, const Unseen& unseen) {
   image::GreyImage where;
   std::uint32_t last = shadow::kNoTriangle;  // neighbours mostly see the same
   bool isMissed = false;
-  for (std::size_t i = 0; i < reach.triangle.size(); ++i) {
-    const std::uint32_t triangle = reach.triangle.pixels()[i];
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const std::uint32_t triangle = seen.pixels()[i];
     if (triangle != last) isMissed = triangle != shadow::kNoTriangle && unseen(triangle);
     last = triangle;
     if (!isMissed) continue;
-    if (where.empty()) where = image::GreyImage(reach.triangle.width(), reach.triangle.height());
+    if (where.empty()) where = image::GreyImage(seen.width(), seen.height());
     where.pixels()[i] = 1;
   }
   return where;
@@ -143,22 +142,45 @@ void copyWhere(const image::GreyImage& where, const image::Image<T>& from, image
 }  // namespace
 
 // Backs of closed solids hide behind their fronts, so mostly nothing is to be done.
-Result<void> MaskMaker::seeThrough(const World& world, const View& view, std::span<const scene::Light> lights,
-                                   Reach& reach) {
-  if (world.culled.empty()) return {};
+Result<void> MaskMaker::seeThrough(const World& world, const View& view, image::Image<std::uint32_t> triangle) {
   const Unseen unseen(world, view);
-  const image::GreyImage where = missed(reach, unseen);
-  if (where.empty()) return {};
-  if (auto done = prepareRays(world); !done) return done;
-  auto seen = look(*occlusion_, view, unseen, &where);
-  if (!seen) return tl::unexpected(seen.error());
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    auto mask = rayMask(*occlusion_, view, *seen, lights[i]);
-    if (!mask) return tl::unexpected(mask.error());
-    copyWhere(where, mask->light, reach.masks[i].light);
-    copyWhere(where, mask->covered, reach.masks[i].covered);
+  Sighting sighting{world.geometry, view, std::move(triangle), {}, {}};
+  if (!world.culled.empty()) sighting.missed = missed(sighting.triangle, unseen);
+  if (!sighting.missed.empty()) {
+    if (auto done = prepareRays(world); !done) return done;
+    auto points = detail::look(*occlusion_, view, unseen, &sighting.missed);
+    if (!points) return tl::unexpected(points.error());
+    copyWhere(sighting.missed, points->triangle, sighting.triangle);
+    sighting.points = std::move(*points);
   }
-  copyWhere(where, seen->triangle, reach.triangle);
+  sighting_ = std::move(sighting);
+  return {};
+}
+
+Result<void> MaskMaker::look(const World& world, const View& view) {
+  if (sighting_ && sighting_->geometry == world.geometry && sighting_->view == view) return {};
+  sighting_.reset();
+  if (!needsRays(world, view)) {
+    auto shading = shade(view, {}, true);
+    if (!shading) return tl::unexpected(shading.error());
+    return seeThrough(world, view, std::move(shading->surface.triangle));
+  }
+  auto points = detail::look(*occlusion_, view, Unseen(world, view));
+  ++views_;
+  if (!points) return tl::unexpected(points.error());
+  sighting_ = {world.geometry, view, points->triangle, {}, std::move(*points)};
+  return {};
+}
+
+Result<void> MaskMaker::repair(const View& view, std::span<const scene::Light> lights,
+                               std::vector<shadow::LightMask>& masks) const {
+  if (sighting_->missed.empty()) return {};
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    auto mask = rayMask(*occlusion_, view, *sighting_->points, lights[i]);
+    if (!mask) return tl::unexpected(mask.error());
+    copyWhere(sighting_->missed, mask->light, masks[i].light);
+    copyWhere(sighting_->missed, mask->covered, masks[i].covered);
+  }
   return {};
 }
 
@@ -171,12 +193,22 @@ Result<void> MaskMaker::prepare(const World& world, const View& view, Method met
   return prepareTechnique(world);
 }
 
-Result<Reach> MaskMaker::masks(const World& world, const View& view, std::span<const scene::Light> lights) {
-  if (needsRays(world, view)) return byRays(world, view, lights);
-  auto reach = byTechnique(view, lights);
-  if (reach)
-    if (auto done = seeThrough(world, view, lights, *reach); !done) return tl::unexpected(done.error());
-  return reach;
+Result<const image::Image<std::uint32_t>*> MaskMaker::seen(const World& world, const View& view) {
+  if (auto done = look(world, view); !done) return tl::unexpected(done.error());
+  return &sighting_->triangle;
+}
+
+Result<std::vector<shadow::LightMask>> MaskMaker::masks(const World& world, const View& view,
+                                                        std::span<const scene::Light> lights) {
+  const bool byEye = needsRays(world, view) || !world.culled.empty();
+  if (byEye)
+    if (auto done = look(world, view); !done) return tl::unexpected(done.error());
+  if (needsRays(world, view)) return byRays(view, lights);
+  auto shading = shade(view, lights, false);
+  if (!shading) return tl::unexpected(shading.error());
+  if (byEye)
+    if (auto done = repair(view, lights, shading->masks); !done) return tl::unexpected(done.error());
+  return std::move(shading->masks);
 }
 
 }  // namespace umbrage::coin::detail

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "umbrage/base/error.hpp"
 #include "umbrage/gl/pass_state.hpp"
 #include "umbrage/shadow/light_mask.hpp"
 
@@ -18,7 +19,7 @@ struct Subset {
 /// A picture cut up by which lights reach.
 struct Subsets {
   int width = 0, height = 0;
-  std::vector<std::uint16_t>
+  image::UnsetVector<std::uint16_t>
       codes;  ///< per pixel, row by row from the bottom: 0 where all lights reach or nothing is seen, else i + 1 for all[i]
   std::vector<Subset> all;  ///< those that occur
 };
@@ -29,9 +30,9 @@ struct Shining {
   std::span<const std::uint64_t> lights;
 };
 
-/// REQUIRES: masks of one size; at most kMostLights.
+/// REQUIRES: masks of one size; at most kMostLights. Errors: ErrorCode::device when memory runs out.
 inline constexpr std::size_t kMostLights = 64;
-[[nodiscard]] Subsets subsetsOf(std::span<const shadow::LightMask> masks, const Shining& shining = {});
+[[nodiscard]] Result<Subsets> subsetsOf(std::span<const shadow::LightMask> masks, const Shining& shining = {});
 
 /// How many subsets 8 bits of stencil tell apart beside those pixels that all lights reach and those whose turn it is not.
 inline constexpr std::size_t kPerRound = 254;
@@ -40,6 +41,8 @@ inline constexpr std::uint8_t kNotNow = 255;
 /// Around all subsets, from the lower left of the picture.
 [[nodiscard]] gl::Rect boxOf(const Subsets& subsets);
 /// The stencil of a round inside a box: i + 1 for the i-th subset of the round, 0 where all lights reach (in the first round), else kNotNow.
-[[nodiscard]] std::vector<std::uint8_t> stencilOf(const Subsets& subsets, std::size_t round, const gl::Rect& box);
+/// Errors: as subsetsOf().
+[[nodiscard]] Result<image::UnsetVector<std::uint8_t>> stencilOf(const Subsets& subsets, std::size_t round,
+                                                                 const gl::Rect& box);
 
 }  // namespace umbrage::coin::detail

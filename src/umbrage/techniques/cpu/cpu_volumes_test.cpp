@@ -93,6 +93,58 @@ TEST(CpuVolumes, TellWhatWasDoneForEachLight) {
   }
 }
 
+std::shared_ptr<const shadow::Geometry> soup(int triangles) {
+  return shadow::makeGeometry(shapes::scene(
+      {shapes::soup(3, triangles, [](shapes::Random& r) { return Vec3(r.in(-3, 3), r.in(-3, 3), r.in(0, 3)); })}));
+}
+
+// What the camera sees is kept for other lights, whoever wants it told; but not for another camera or another geometry.
+TEST(CpuTechniques, KeepWhatTheCameraSeesAndNoMore) {
+  const auto lights = threeLights();
+  const scene::Camera near = fromTheCorner(64, 48), wide = fromTheCorner(65, 48);
+  for (const auto& name : {"zpass_cpu", "hybrid_cpu", "ray_traced"}) {
+    auto kept = make(name);
+    for (const auto& geometry : {yard(), soup(500), yard()}) {
+      ASSERT_TRUE(kept->prepare(geometry));
+      const scene::Camera* last = nullptr;
+      for (const scene::Camera* camera : {&near, &near, &wide, &near}) {
+        for (std::size_t l = 0; l < lights.size(); ++l) {
+          const std::span<const scene::Light> one(&lights[l], 1);
+          auto fresh = make(name);
+          ASSERT_TRUE(fresh->prepare(geometry));
+          const auto expected = fresh->shade({.camera = *camera, .lights = one});
+          const auto found = kept->shade({.camera = *camera, .lights = one, .surfaceWanted = l != 1});
+          ASSERT_TRUE(expected && found);
+          EXPECT_EQ(differing(*expected, *found), 0u) << name;
+          EXPECT_TRUE(l == 1 || found->surface.triangle == expected->surface.triangle) << name;
+          EXPECT_EQ(found->stats.surfaceKept, last == camera) << name;
+          last = camera;
+        }
+      }
+    }
+  }
+}
+
+// So many triangles for so few pixels that rays see them, once their tree has paid for itself.
+TEST(HybridCpu, KeepsWhatRaysSeeToo) {
+  const auto lights = threeLights();
+  const scene::Camera near = fromTheCorner(64, 48), wide = fromTheCorner(65, 48), tall = fromTheCorner(64, 49);
+  auto technique = make("hybrid_cpu"), truth = make("ray_traced");
+  const auto many = soup(20000);
+  ASSERT_TRUE(technique->prepare(many) && truth->prepare(many));
+  for (int i = 0; i < 10; ++i) ASSERT_TRUE(technique->shade({.camera = near, .lights = lights}));
+  for (const scene::Camera* camera : {&wide, &tall, &wide}) {
+    for (std::size_t l = 0; l < lights.size(); ++l) {
+      const std::span<const scene::Light> one(&lights[l], 1);
+      const auto found = technique->shade({.camera = *camera, .lights = one, .surfaceWanted = l != 1});
+      ASSERT_TRUE(found);
+      EXPECT_NE(found->stats.lights[0].reason.find("so are the surfaces"), std::string::npos);
+      EXPECT_EQ(found->stats.surfaceKept, l > 0);
+      EXPECT_EQ(differing(shade(*truth, *camera, one), *found), 0u);
+    }
+  }
+}
+
 // A soup is all silhouette. The tree is not built before rays would have paid for it.
 TEST(HybridCpu, TracesRaysWhereTheSidesAreTooManyAndCountsElsewhere) {
   const auto lights = std::vector<scene::Light>{{scene::DirectionalLight{{0.4, 0.3, -0.7}}}};

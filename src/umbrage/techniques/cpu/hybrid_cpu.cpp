@@ -34,8 +34,9 @@ class HybridCpu final : public shadow::Technique {
   Result<void> prepare(std::shared_ptr<const shadow::Geometry> geometry) override {
     geometry_ = std::move(geometry);
     rays_.reset();
+    tracedFor_.reset();
     missed_ = 0.0;
-    volumes_.emplace(geometry_);
+    volumes_ ? volumes_->use(geometry_) : void(volumes_.emplace(geometry_));
     return {};
   }
 
@@ -45,12 +46,16 @@ class HybridCpu final : public shadow::Technique {
     shadow::PhaseClock clock(out.stats.phases);
     const double pixels = double(frame.camera.width) * frame.camera.height;
     const auto triangles = double(geometry_->surfaces.triangles.size());
-    const auto tracing = prefersRays(cost::rasterising(triangles, pixels), cost::primaryRays(pixels));
+    const bool seen = volumes_->hasSeen(frame.camera);
+    const double rasterisingTakes = seen ? 0.0 : cost::rasterising(triangles, pixels);
+    const auto tracing = prefersRays(rasterisingTakes, cost::primaryRays(pixels));
     if (!tracing) return tl::unexpected(tracing.error());
     const bool rasterising = !*tracing;
-    auto surface = rasterising ? rasterised(frame.camera) : trace::visibleSurfaces(rays_->occlusion(), frame.camera);
-    if (!surface) return tl::unexpected(surface.error());
-    out.surface = std::move(*surface);
+    out.stats.surfaceKept = rasterising ? seen : tracedFor_ == frame.camera;
+    if (auto done = rasterising ? volumes_->see(frame.camera) : see(frame.camera); !done)
+      return tl::unexpected(done.error());
+    if (!rasterising || frame.surfaceWanted)
+      if (auto done = addSurface(rasterising, out); !done) return tl::unexpected(done.error());
     clock.end("surface");
     for (const scene::Light& light : frame.lights) {
       out.stats.lights.emplace_back();
@@ -75,15 +80,30 @@ class HybridCpu final : public shadow::Technique {
     return true;
   }
 
-  Result<shadow::SurfaceBuffer> rasterised(const scene::Camera& camera) {
-    if (auto done = volumes_->see(camera); !done) return tl::unexpected(done.error());
-    return volumes_->surface();
+  // By rays.
+  Result<void> see(const scene::Camera& camera) {
+    if (tracedFor_ == camera) return {};
+    tracedFor_.reset();
+    auto surface = trace::visibleSurfaces(rays_->occlusion(), camera);
+    if (!surface) return tl::unexpected(surface.error());
+    traced_ = std::move(*surface);
+    tracedFor_ = camera;
+    return {};
+  }
+
+  Result<void> addSurface(bool rasterised, shadow::Shading& out) {
+    if (!out.surface.triangle.empty()) return {};
+    auto surface = rasterised ? volumes_->surface() : Result<shadow::SurfaceBuffer>(traced_);
+    if (!surface) return tl::unexpected(surface.error());
+    out.surface = std::move(*surface);
+    return {};
   }
 
   Result<shadow::LightMask> traced(const shadow::Frame& frame, const scene::Light& light, shadow::Shading& out,
                                    const std::string& why, shadow::PhaseClock& clock) {
     out.stats.lights.back().method = "ray_traced";
     out.stats.lights.back().reason = "a ray per lit-facing pixel towards the light: " + why;
+    if (auto done = addSurface(true, out); !done) return tl::unexpected(done.error());
     auto mask = rays_->mask(frame.camera, light, out.surface);
     clock.end("shadow");
     return mask;
@@ -113,6 +133,8 @@ class HybridCpu final : public shadow::Technique {
   std::shared_ptr<const shadow::Geometry> geometry_;
   std::optional<CpuVolumes> volumes_;
   std::optional<Rays> rays_;
+  std::optional<scene::Camera> tracedFor_;  ///< whose picture by rays is here
+  shadow::SurfaceBuffer traced_;
   double missed_ = 0.0;  ///< what rays would have saved so far
 };
 

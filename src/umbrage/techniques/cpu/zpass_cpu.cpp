@@ -13,7 +13,7 @@ class ZPassCpu final : public shadow::Technique {
   const shadow::Traits& traits() const override { return traits_; }
 
   Result<void> prepare(std::shared_ptr<const shadow::Geometry> geometry) override {
-    volumes_.emplace(std::move(geometry));
+    volumes_ ? volumes_->use(std::move(geometry)) : void(volumes_.emplace(std::move(geometry)));
     return {};
   }
 
@@ -21,10 +21,13 @@ class ZPassCpu final : public shadow::Technique {
     UMBRAGE_CHECK(volumes_.has_value(), "shade() before prepare()");
     shadow::Shading out;
     shadow::PhaseClock clock(out.stats.phases);
+    out.stats.surfaceKept = volumes_->hasSeen(frame.camera);
     if (auto done = volumes_->see(frame.camera); !done) return tl::unexpected(done.error());
-    auto surface = volumes_->surface();
-    if (!surface) return tl::unexpected(surface.error());
-    out.surface = std::move(*surface);
+    if (frame.surfaceWanted) {
+      auto surface = volumes_->surface();
+      if (!surface) return tl::unexpected(surface.error());
+      out.surface = std::move(*surface);
+    }
     clock.end("surface");
     for (const scene::Light& light : frame.lights) {
       if (auto done = volumes_->look(light, frame.silhouettes, clock); !done) return tl::unexpected(done.error());

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -14,7 +16,9 @@ namespace umbrage::techniques::detail {
 class FacingMemo {
  public:
   FacingMemo(const scene::Surfaces& surfaces, const Vec4& eye, const Vec4& light)
-      : surfaces_(surfaces), eye_(eye), light_(light), known_(surfaces.triangles.size(), kUnknown) {}
+      : surfaces_(surfaces), eye_(eye), light_(light), known_(surfaces.triangles.size() + 1, kUnknown) {
+    known_.back() = 0;
+  }
 
   [[nodiscard]] bool faces(std::uint32_t triangle) {
     const std::atomic_ref<std::uint8_t> known(known_[triangle]);
@@ -25,9 +29,14 @@ class FacingMemo {
     }
     return value != 0;
   }
+  /// 0, 1, or kUnknown when nobody has asked yet; of shadow::kNoTriangle 0.
+  [[nodiscard]] std::uint8_t known(std::uint32_t triangle) {
+    const std::size_t i = std::min<std::size_t>(triangle, known_.size() - 1);
+    return std::atomic_ref<std::uint8_t>(known_[i]).load(std::memory_order_relaxed);
+  }
+  static constexpr std::uint8_t kUnknown = 2;
 
  private:
-  static constexpr std::uint8_t kUnknown = 2;
   const scene::Surfaces& surfaces_;
   Vec4 eye_, light_;
   std::vector<std::uint8_t> known_;
@@ -35,12 +44,14 @@ class FacingMemo {
 
 /// The pixels of a block whose surfaces face the light, a bit each.
 [[nodiscard]] inline std::uint64_t receiversOf(const std::array<std::uint32_t, 64>& triangle, FacingMemo& facing) {
-  std::uint64_t bits = 0;
-  std::uint32_t last = shadow::kNoTriangle;
-  bool faces = false;
+  std::uint64_t bits = 0, unknown = 0;
   for (std::size_t k = 0; k < triangle.size(); ++k) {
-    if (triangle[k] != last) last = triangle[k], faces = last != shadow::kNoTriangle && facing.faces(last);
-    bits |= std::uint64_t{faces} << k;
+    const std::uint64_t value = facing.known(triangle[k]);
+    bits |= (value & 1) << k, unknown |= (value >> 1) << k;
+  }
+  for (; unknown != 0; unknown &= unknown - 1) {
+    const int k = std::countr_zero(unknown);
+    bits |= std::uint64_t{facing.faces(triangle[static_cast<std::size_t>(k)])} << k;
   }
   return bits;
 }
