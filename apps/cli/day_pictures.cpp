@@ -14,18 +14,33 @@ namespace {
 constexpr Size kSize{960, 540};
 constexpr std::chrono::milliseconds kDelay{500};
 
-Result<View> viewOf(const scene::Scene& scene) {
+// From where the whole scene is seen, as much nearer as `about`, with twice the scene's height around it, is smaller than the scene.
+void approach(scene::Camera& camera, const scene::Scene& scene, const Box3& about) {
+  const Box3 box = scene::bounds(scene);
+  if (about.empty() || box.empty()) return;
+  const double height = std::abs(glm::dot(box.size(), scene::upVector(scene.up)));
+  const double nearer = (glm::length(about.size()) + 4.0 * height) / glm::length(box.size());
+  if (nearer >= 1.0) return;
+  const Vec3 back = nearer * (camera.eye - camera.target);
+  camera.target = about.centre();
+  camera.eye = camera.target + back;
+}
+
+Result<View> viewOf(const scene::Scene& scene, const Box3& about) {
   ViewOptions options;
   options.size = kSize;
   options.ground = Ground{};
   options.shadowRoom = 0.6;  // a day's shadows go to all sides
-  return makeView(scene, options);
+  auto view = makeView(scene, options);
+  if (view) approach(view->camera, scene, about);
+  return view;
 }
 
 }  // namespace
 
-Result<DayPictures> picturesOf(const scene::Scene& scene, const study::Period& period, const Console& console) {
-  const auto view = viewOf(scene);
+Result<DayPictures> picturesOf(const scene::Scene& scene, const Box3& about, const study::Period& period,
+                               const Console& console) {
+  const auto view = viewOf(scene, about);
   if (!view) return tl::unexpected(view.error());
   auto chosen = chooseTechnique("auto");
   if (!chosen) return tl::unexpected(chosen.error());

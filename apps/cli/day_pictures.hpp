@@ -8,13 +8,13 @@
 
 namespace umbrage::cli {
 
-/// A day seen from the default camera, for pages and as an animation.
+/// A day seen from the default camera, or from nearer to what it is about, for pages and as an animation.
 struct DayPictures {
   std::vector<std::string> captions;
   std::vector<image::RgbImage> pictures;
 };
-/// The steps of a period in which the sun is up. Errors: those of study::profile.
-[[nodiscard]] Result<DayPictures> picturesOf(const scene::Scene& scene, const study::Period& period,
+/// The steps of a period in which the sun is up. `about`: what is to be seen, with its neighbourhood. Errors: those of study::profile.
+[[nodiscard]] Result<DayPictures> picturesOf(const scene::Scene& scene, const Box3& about, const study::Period& period,
                                              const Console& console);
 
 /// REQUIRES: there are pictures.

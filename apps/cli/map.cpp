@@ -1,5 +1,7 @@
 #include "map.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -23,6 +25,34 @@ Result<void> checkMapFile(const MapOptions& options, const std::string& scene) {
   return checkOutputs({options.output}, scene);
 }
 
+namespace {
+
+// Which part of its area stands upright.
+double uprightPart(const outline::CasterPart& part) {
+  double upright = 0.0, all = 0.0;
+  for (const mesh::Triangle& t : part.triangles) {
+    const Vec3 normal = glm::cross(part.points[t[1]] - part.points[t[0]], part.points[t[2]] - part.points[t[0]]);
+    const double area = glm::length(normal);
+    all += area;
+    if (std::abs(normal.z) < 0.2 * area) upright += area;
+  }
+  return all > 0.0 ? upright / all : 0.0;
+}
+
+// Terrain, roads and water are flat for their size and have hardly any walls; drawn as buildings they would hide the map.
+bool isGround(const outline::CasterPart& part) {
+  constexpr double kFlat = 0.03, kFewWalls = 0.05;
+  const Vec3 size = part.bounds.size();
+  return size.z < kFlat * std::max(size.x, size.y) && uprightPart(part) < kFewWalls;
+}
+
+std::vector<outline::CasterPart> standing(std::vector<outline::CasterPart> parts) {
+  std::erase_if(parts, isGround);
+  return parts;
+}
+
+}  // namespace
+
 double planeOf(const MapOptions& options, const scene::Scene& scene) {
   const Box3 box = scene::bounds(scene, true);
   return options.plane.value_or(box.empty() ? 0.0 : study::mapHeight(box.min, scene.up));
@@ -41,7 +71,7 @@ Result<report::VectorMap> mapOf(const scene::Scene& scene, const std::vector<out
   map.height = plane;
   map.north = scene.northOffset;
   // What stands on the plane, seen from above.
-  auto plans = outline::shadowsOnPlane(casters, plane, {Vec2(0.0)}, outline::Grouping::merged);
+  auto plans = outline::shadowsOnPlane(standing(casters), plane, {Vec2(0.0)}, outline::Grouping::merged);
   if (!plans) return tl::unexpected(plans.error());
   map.buildings = std::move(plans->front().front().region.polygons);
   map.ledger = {{"Place", study::placeText(place)},

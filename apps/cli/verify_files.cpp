@@ -59,6 +59,7 @@ Result<report::VectorMap> verdictMap(const VerdictFiles& files, const VerdictRep
   addLines(*map, "Checked", report.verdict.rule.checked);
   addLines(*map, "Uncertain", report.verdict.rule.uncertain);
   addVerdict(*map, allDays ? report : withWorstDay(report), files.scene);
+  map->aboutFeatures = report.areas.empty();  // points, mostly on walls
   return map;
 }
 
@@ -72,6 +73,12 @@ std::vector<Output> tableOutputs(const std::string& path, const VerdictReport& r
 std::chrono::year_month_day dayOf(const VerdictReport& report) {
   if (const auto date = rules::decidingOf(report.verdict).date) return *date;
   return report.news.empty() ? report.request.date : worstDay(report.news).date;
+}
+
+Box3 receiversBox(const rules::TargetSet& set) {
+  Box3 box;
+  for (const rules::Target& target : set.targets) box.add(target.receiver.position);
+  return box;
 }
 
 /// The day's pictures at whole half hours of its clock, from the first to the last moment that counts. None where the sun does not count.
@@ -90,7 +97,7 @@ Result<DayPictures> decidingDay(const VerdictFiles& files, const VerdictReport& 
   period.to = last.date == date ? last.time / step * step : std::chrono::milliseconds(kDay);
   period.step = step;
   if (period.from >= period.to) return DayPictures{};
-  return picturesOf(files.scene, period, console);
+  return picturesOf(files.scene, receiversBox(report.targets), period, console);
 }
 
 std::string stemOf(const std::string& page) { return page.substr(0, page.size() - kPage.size()); }

@@ -305,7 +305,7 @@ std::string verdictCsv(const VerdictReport& r) {
     for (const ReceiverResult& result : f.receivers) {
       const rules::Target& t = r.targets.targets[result.target];
       const Vec3 &p = t.receiver.position, &n = t.receiver.normal;
-      text += fmt::format("{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.4f},{:.4f},{:.4f},{},{},,\n",
+      text += fmt::format("{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.7f},{:.7f},{:.7f},{},{},,\n",
                           csvText(f.group), csvText(requirementOf(r, f).name), p.x, p.y, p.z, n.x, n.y, n.z, t.weight,
                           t.fromSite, result.passes ? 1 : 0, result.value, result.threshold, result.margin,
                           sun::dateText(result.date), spansText(r, result.spans));

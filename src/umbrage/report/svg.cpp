@@ -16,6 +16,7 @@ using outline::Ring;
 
 constexpr double kMapSide = 960.0, kPanel = 320.0, kMargin = 24.0, kLine = 15.5;
 constexpr std::size_t kLettersInLine = 46, kLettersInTitle = 25;
+constexpr double kNeighbourhood = 25.0;  // metres about the features of a map that is about them
 constexpr double kRoom = 0.04;  // around what is drawn, of its size
 
 struct Frame {
@@ -38,7 +39,13 @@ Frame frameOf(const VectorMap& map) {
   };
   for (const MapFeature& feature : map.features)
     std::for_each(feature.region.polygons.begin(), feature.region.polygons.end(), add);
+  const Vec2 low = frame.low, high = frame.high;
   std::for_each(map.buildings.begin(), map.buildings.end(), add);
+  if (map.aboutFeatures && !map.features.empty()) {
+    const double around = 0.5 * std::max(high.x - low.x, high.y - low.y) + kNeighbourhood / map.metresPerUnit;
+    frame.low = glm::max(frame.low, low - around);
+    frame.high = glm::min(frame.high, high + around);
+  }
   const double size = std::max({frame.high.x - frame.low.x, frame.high.y - frame.low.y, 1e-9});
   frame.low -= kRoom * size;
   frame.high += kRoom * size;
@@ -144,17 +151,21 @@ class Svg {
         "stroke-linejoin=\"round\">\n",
         kMargin + (frame_.origin.x - frame_.low.x) * frame_.scale,
         kMargin + (frame_.high.y - frame_.origin.y) * frame_.scale, frame_.scale, -frame_.scale);
+    if (map_.aboutFeatures) drawBuildings();
     for (std::size_t layer = 0; layer < map_.layers.size(); ++layer) drawLayer(layer);
-    if (!map_.buildings.empty()) {
-      add("<path id=\"buildings\" fill=\"#d8d2c6\" fill-opacity=\"0.92\" stroke=\"#8d867a\" stroke-width=\"{:.4g}\" "
-          "d=\"",
-          0.5 / frame_.scale);
-      for (const Polygon& polygon : map_.buildings) addPolygon(polygon);
-      out_ += "\"/>\n";
-    }
+    if (!map_.aboutFeatures) drawBuildings();
     out_ += "</g></g>\n";
     drawScale();
     drawNorth();
+  }
+
+  void drawBuildings() {
+    if (map_.buildings.empty()) return;
+    add("<path id=\"buildings\" fill=\"#d8d2c6\" fill-opacity=\"0.92\" stroke=\"#8d867a\" stroke-width=\"{:.4g}\" "
+        "d=\"",
+        0.5 / frame_.scale);
+    for (const Polygon& polygon : map_.buildings) addPolygon(polygon);
+    out_ += "\"/>\n";
   }
 
   void drawLayer(std::size_t layer) {

@@ -34,6 +34,8 @@ struct VectorMap {
   std::vector<MapLayer> layers;
   std::vector<MapFeature> features;
   std::vector<outline::Polygon> buildings;  ///< drawn for orientation, in pictures only
+  /// Pictures show the features with their neighbourhood, and those that are small (points) over the buildings; otherwise everything, with the buildings on top.
+  bool aboutFeatures = false;
   std::vector<study::LedgerLine> ledger;
   std::string crs;  ///< Scene::crs
   double metresPerUnit = 1.0;
