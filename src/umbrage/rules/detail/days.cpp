@@ -17,6 +17,7 @@ using study::TimeSpan;
 
 // The upper limb on the horizon, lifted by the air.
 constexpr Angle kAlmanacHorizon = Angle::degrees(-0.833);
+const sun::Zone kSolar{sun::Zone::Kind::solar, "solar", {}};
 
 double longitudeAt(sun::Instant instant) {
   const double days = double((instant - sys_days(std::chrono::year(2000) / 1 / 1)).count()) / 86400e3 - 0.5;
@@ -68,8 +69,9 @@ sun::Zone legalOf(Clock clock, const Calendar& calendar) {
 std::pair<sun::Moment, sun::Moment> bordersOf(const Window& window, year_month_day date, const Calendar& calendar,
                                               bool clockSwitched) {
   const sun::Zone zone = zoneOf(window.clock, calendar, clockSwitched);
+  const auto day = zone.kind == sun::Zone::Kind::solar ? solarDateOf(date, calendar) : date;
   const auto at = [&](milliseconds time, sun::Twice twice) {
-    return sun::nearestInstantOf(zone, calendar.place, {date, time}, twice);
+    return sun::nearestInstantOf(zone, calendar.place, {day, time}, twice);
   };
   return {at(window.from.value_or(milliseconds(0)), sun::Twice::first),
           at(window.to.value_or(std::chrono::hours(24)), sun::Twice::second)};
@@ -108,9 +110,18 @@ std::vector<year_month_day> datesOf(const Days& days, const Calendar& calendar) 
   return dates;
 }
 
+year_month_day solarDateOf(year_month_day date, const Calendar& calendar) {
+  if (calendar.zone.kind == sun::Zone::Kind::solar) return date;
+  const auto clockNoon =
+      sun::nearestInstantOf(calendar.zone, calendar.place, {date, std::chrono::hours(12)}, sun::Twice::first);
+  // The mean sun's date is the true one's: at its noon they are never more than 17 minutes apart.
+  const milliseconds east(std::llround(calendar.place.longitude.degrees() * 240e3));
+  return std::chrono::floor<std::chrono::days>(clockNoon.instant + east);
+}
+
 sun::Zone zoneOf(Clock clock, const Calendar& calendar, bool switched) {
   const bool solar = (clock == Clock::solar) != switched;
-  if (solar) return {sun::Zone::Kind::solar, "solar", {}};
+  if (solar) return kSolar;
   return legalOf(clock, calendar);
 }
 
@@ -127,7 +138,7 @@ std::optional<TimeSpan> windowOn(const Window& window, year_month_day date, cons
   const auto [from, to] = bordersOf(window, date, calendar, clockSwitched);
   TimeSpan span{from.instant, to.instant};
   if (window.afterSunrise || window.beforeSunset) {
-    const auto day = sun::sunDay(calendar.place, {sun::Zone::Kind::solar, "solar", {}}, date, {kAlmanacHorizon});
+    const auto day = sun::sunDay(calendar.place, kSolar, solarDateOf(date, calendar), {kAlmanacHorizon});
     UMBRAGE_CHECK(day, "the true sun has a noon every day");
     if (day->kind == sun::SunDay::Kind::alwaysDown) return std::nullopt;
     if (window.afterSunrise && day->rise) span.from = std::max(span.from, *day->rise + *window.afterSunrise);

@@ -24,6 +24,10 @@ struct Calendar {
 /// The dates that a rule looks at, ascending. 29 February is 28 February in years without.
 [[nodiscard]] std::vector<std::chrono::year_month_day> datesOf(const Days& days, const Calendar& calendar);
 
+/// What the true sun's clock calls the day that the calendar's clock calls `date`: the day whose solar noon is the one nearest to that clock's noon. Near
+/// the date line the two differ by a day.
+[[nodiscard]] std::chrono::year_month_day solarDateOf(std::chrono::year_month_day date, const Calendar& calendar);
+
 /// The zone of one of the rule's clocks. `switched`: of the other one: the legal clock for the true sun's, the true sun's for others. Where the
 /// calendar's own zone is that of the sun, its legal clock is mean solar time.
 [[nodiscard]] sun::Zone zoneOf(Clock clock, const Calendar& calendar, bool switched);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "umbrage/rules/test_boxes.hpp"
+#include "umbrage/sun/sun_path.hpp"
 
 namespace umbrage::rules::detail {
 namespace {
@@ -113,6 +114,72 @@ TEST(Windows, sunriseAndSunset) {
   EXPECT_FALSE(windowOn(w, kDay(2026, 12, 21), north, false).has_value());
   EXPECT_FALSE(windowOn({Clock::solar, {}, {}, 720min, 0min}, kDay(2026, 12, 21), c, false).has_value());
   EXPECT_TRUE(windowOn({Clock::solar, {}, {}, 60min, 60min}, kDay(2026, 6, 21), north, false).has_value());
+}
+
+// On both sides of the date line, where clocks are farthest from the sun's, with and without daylight saving.
+struct Clocked {
+  const char* zone;
+  double latitude, longitude;
+};
+const Clocked kClocked[] = {{"Pacific/Apia", -13.8, -171.8},    {"Pacific/Chatham", -43.9, -176.5},
+                            {"Pacific/Kiritimati", 1.9, -157.4}, {"Pacific/Fiji", -17.0, -179.9},
+                            {"Pacific/Fiji", -17.0, 179.9},      {"Pacific/Fiji", -17.0, 180.0},
+                            {"Pacific/Fiji", -17.0, -180.0},     {"Pacific/Auckland", -36.8, 174.8},
+                            {"America/Adak", 51.9, -176.6},      {"Asia/Anadyr", 64.7, 177.5},
+                            {"Asia/Anadyr", 66.0, -170.0},       {"Pacific/Honolulu", 21.3, -157.9},
+                            {"America/Los_Angeles", 34, -118.2}, {"America/St_Johns", 47.6, -52.7},
+                            {"Europe/Madrid", 42.9, -9.2},       {"Europe/London", 51.5, 0},
+                            {"Asia/Kolkata", 22.6, 88.4},        {"Asia/Urumqi", 43.8, 87.6},
+                            {"Asia/Shanghai", 39.5, 76.0},       {"Australia/Sydney", -33.9, 151.2},
+                            {"solar", -17.0, 179.9},             {"solar", -17.0, -179.9}};
+
+TEST(Windows, aDateIsTheClocksAllAroundTheEarth) {
+  for (const auto& [name, latitude, longitude] : kClocked)
+    for (const auto date : {kDay(2026, 1, 1), kDay(2026, 3, 29), kDay(2026, 7, 1), kDay(2026, 11, 1)}) {
+      const Calendar c{place(latitude, longitude), *sun::parseZone(name), date};
+      const std::string told = std::string(name) + " " + std::to_string(longitude) + " " + sun::dateText(date);
+      const auto clock = [&](sun::Instant t) { return sun::clockAt(c.zone, c.place, t).clock; };
+      const auto solar = windowOn({Clock::solar, 9h, 15h, {}, {}}, date, c, false);
+      ASSERT_TRUE(solar) << told;
+      const sun::Instant noon = solar->from + solar->length() / 2;
+      EXPECT_NEAR(sun::hourAngle(c.place, noon).degrees(), 0.0, 0.1) << told;
+      EXPECT_EQ(clock(noon).date, date) << told;
+      // What sunrise and sunset leave of the clock's own day is all of its sunlight but its first and last hour.
+      const auto lit = windowOn({Clock::zone, 1h, 24h, 60min, 60min}, date, c, false);
+      const auto day = sun::sunDay(c.place, c.zone, date, {Angle::degrees(-0.833)});
+      ASSERT_TRUE(day) << told;
+      if (day->kind == sun::SunDay::Kind::alwaysDown) continue;
+      ASSERT_TRUE(lit) << told;
+      const auto onDate = [&](sun::Instant t) { return clock(t).date == date && clock(t).time > 1h; };
+      if (day->rise && onDate(*day->rise + 60min)) {
+        EXPECT_EQ(lit->from, *day->rise + 60min) << told;
+      }
+      if (day->set && onDate(*day->set - 60min)) {
+        EXPECT_EQ(lit->to, *day->set - 60min) << told;
+      }
+      // The other clock looks at the same day.
+      const auto other = windowOn({Clock::zone, 9h, 15h, {}, {}}, date, c, true);
+      ASSERT_TRUE(other) << told;
+      if (c.zone.kind != sun::Zone::Kind::solar) {
+        EXPECT_EQ(*other, *solar) << told;
+      }
+    }
+}
+
+TEST(Windows, everyLongitudeHasItsOwnNoon) {
+  // Whole hours west and east, as ships have them, and the date line's own clocks on its other side.
+  for (int longitude = -180; longitude <= 180; longitude += 5)
+    for (const double latitude : {-60.0, 0.0, 60.0})
+      for (const int off : {-24, 0, 24}) {
+        const long hour = std::lround(longitude / 15.0) + off;
+        if (std::abs(hour) > 14) continue;
+        const sun::Zone zone{sun::Zone::Kind::fixed, std::to_string(hour), std::chrono::hours(hour)};
+        const Calendar c{place(latitude, longitude), zone, kDay(2026, 2, 11)};
+        const auto day = windowOn({Clock::solar, {}, {}, 0min, 0min}, kDay(2026, 2, 11), c, false);
+        ASSERT_TRUE(day) << longitude << ' ' << hour;
+        EXPECT_EQ(sun::clockAt(zone, c.place, day->from + day->length() / 2).clock.date, kDay(2026, 2, 11))
+            << longitude << ' ' << hour;
+      }
 }
 
 TEST(Counting, fromAnAltitudeUp) {
