@@ -170,14 +170,19 @@ Result<void> checkCounts(const Rule& rule, const Conventions& conventions) {
   return {};
 }
 
-/// What clocks that are put forward or back do to the windows of a rule, each once.
-std::vector<std::string> clockNotes(const Rule& rule, const Conventions& conventions) {
+/// What the calendar does to the days of a rule, and clocks that are put forward or back to its windows, each once.
+std::vector<std::string> calendarNotes(const Rule& rule, const Conventions& conventions) {
   std::vector<std::string> notes;
+  const auto add = [&](std::vector<std::string> more) {
+    for (std::string& note : more)
+      if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
+  };
   for (const Requirement& r : rule.requirements)
-    for (const Measure& m : r.anyOf)
+    for (const Measure& m : r.anyOf) {
+      add(detail::dateNotes(m.days, conventions.calendar));
       for (const auto& date : detail::datesOf(m.days, conventions.calendar))
-        for (std::string& note : detail::windowNotes(m.window, date, conventions.calendar))
-          if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
+        add(detail::windowNotes(m.window, date, conventions.calendar));
+    }
   return notes;
 }
 
@@ -207,7 +212,7 @@ std::vector<std::string> warningsOf(const Rule& rule, bool hasBaseline, const Ve
                       r.name, *r.former));
   if (request.zone.kind == sun::Zone::Kind::solar && readsLegalClock(rule))
     warnings.emplace_back("the rule reads the legal clock, which --tz solar does not tell: mean solar time is taken");
-  for (std::string& note : clockNotes(rule, conventions)) warnings.push_back(std::move(note));
+  for (std::string& note : calendarNotes(rule, conventions)) warnings.push_back(std::move(note));
   return warnings;
 }
 

@@ -1,5 +1,7 @@
 #include "umbrage/rules/detail/days.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -35,10 +37,15 @@ year_month_day inYear(const month_day& day, std::chrono::year year) {
   return date.ok() ? date : year_month_day(year / day.month() / std::chrono::last);
 }
 
+// Of a range that passes New Year the last day is in the next year.
+std::pair<year_month_day, year_month_day> endsOf(const Days& days, std::chrono::year year) {
+  const auto first = inYear(days.dates[0], year), last = inYear(days.dates[1], year);
+  return {first, last < first ? inYear(days.dates[1], year + std::chrono::years(1)) : last};
+}
+
 std::vector<year_month_day> rangeOf(const Days& days, std::chrono::year year) {
-  const sys_days first(inYear(days.dates[0], year));
-  sys_days last(inYear(days.dates[1], year));
-  if (last < first) last = sys_days(inYear(days.dates[1], year + std::chrono::years(1)));
+  const auto ends = endsOf(days, year);
+  const sys_days first(ends.first), last(ends.second);
   std::vector<year_month_day> dates;
   for (sys_days day = first; day < last; day += std::chrono::days(days.every)) dates.emplace_back(day);
   dates.emplace_back(last);
@@ -107,7 +114,19 @@ std::vector<year_month_day> datesOf(const Days& days, const Calendar& calendar) 
         dates.push_back(sun::clockAt(calendar.zone, calendar.place, instantOfLongitude(longitude, year)).clock.date);
   }
   std::sort(dates.begin(), dates.end());
+  dates.erase(std::unique(dates.begin(), dates.end()), dates.end());
   return dates;
+}
+
+std::vector<std::string> dateNotes(const Days& days, const Calendar& calendar) {
+  std::vector<year_month_day> dates;
+  for (const month_day& day : days.dates) dates.push_back(inYear(day, calendar.date.year()));
+  if (days.kind == Days::Kind::range) dates[1] = endsOf(days, calendar.date.year()).second;
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < dates.size(); ++i)
+    if (days.dates[i].day() != dates[i].day())
+      notes.push_back(fmt::format("{} has no 29 February: the 28th is taken", int(dates[i].year())));
+  return notes;
 }
 
 year_month_day solarDateOf(year_month_day date, const Calendar& calendar) {

@@ -57,6 +57,22 @@ TEST(Days, ranges) {
   EXPECT_EQ(datesOf({Days::Kind::given}, c).front(), kDay(2026, 7, 7));
 }
 
+TEST(Days, aTwentyNinthOfFebruaryThatIsNot) {
+  const sun::Zone utc = *sun::parseZone("Z");
+  const Calendar common{place(52, 5), utc, kDay(2026, 1, 1)}, leap{place(52, 5), utc, kDay(2024, 1, 1)};
+  Days days{Days::Kind::dates, {std::chrono::February / 28, std::chrono::February / 29}, {}};
+  EXPECT_EQ(datesOf(days, common), std::vector{kDay(2026, 2, 28)});  // counted once
+  ASSERT_EQ(dateNotes(days, common).size(), 1u);
+  EXPECT_EQ(dateNotes(days, common)[0], "2026 has no 29 February: the 28th is taken");
+  EXPECT_EQ(datesOf(days, leap).size(), 2u);
+  EXPECT_TRUE(dateNotes(days, leap).empty());
+  // A range's last day may be in the next year.
+  days = {Days::Kind::range, {std::chrono::November / 1, std::chrono::February / 29}, {}};
+  EXPECT_EQ(dateNotes(days, leap).at(0), "2025 has no 29 February: the 28th is taken");
+  EXPECT_TRUE(dateNotes(days, {place(52, 5), utc, kDay(2023, 1, 1)}).empty());
+  EXPECT_TRUE(dateNotes({Days::Kind::given}, common).empty());
+}
+
 TEST(Windows, clocks) {
   const Calendar c{place(48.2, 16.37), *sun::parseZone("Europe/Vienna"), kDay(2026, 7, 1)};
   Window w{Clock::zone, 9h, 15h, {}, {}};
@@ -121,17 +137,28 @@ struct Clocked {
   const char* zone;
   double latitude, longitude;
 };
-const Clocked kClocked[] = {{"Pacific/Apia", -13.8, -171.8},    {"Pacific/Chatham", -43.9, -176.5},
-                            {"Pacific/Kiritimati", 1.9, -157.4}, {"Pacific/Fiji", -17.0, -179.9},
-                            {"Pacific/Fiji", -17.0, 179.9},      {"Pacific/Fiji", -17.0, 180.0},
-                            {"Pacific/Fiji", -17.0, -180.0},     {"Pacific/Auckland", -36.8, 174.8},
-                            {"America/Adak", 51.9, -176.6},      {"Asia/Anadyr", 64.7, 177.5},
-                            {"Asia/Anadyr", 66.0, -170.0},       {"Pacific/Honolulu", 21.3, -157.9},
-                            {"America/Los_Angeles", 34, -118.2}, {"America/St_Johns", 47.6, -52.7},
-                            {"Europe/Madrid", 42.9, -9.2},       {"Europe/London", 51.5, 0},
-                            {"Asia/Kolkata", 22.6, 88.4},        {"Asia/Urumqi", 43.8, 87.6},
-                            {"Asia/Shanghai", 39.5, 76.0},       {"Australia/Sydney", -33.9, 151.2},
-                            {"solar", -17.0, 179.9},             {"solar", -17.0, -179.9}};
+const Clocked kClocked[] = {{"Pacific/Apia", -13.8, -171.8},
+                            {"Pacific/Chatham", -43.9, -176.5},
+                            {"Pacific/Kiritimati", 1.9, -157.4},
+                            {"Pacific/Fiji", -17.0, -179.9},
+                            {"Pacific/Fiji", -17.0, 179.9},
+                            {"Pacific/Fiji", -17.0, 180.0},
+                            {"Pacific/Fiji", -17.0, -180.0},
+                            {"Pacific/Auckland", -36.8, 174.8},
+                            {"America/Adak", 51.9, -176.6},
+                            {"Asia/Anadyr", 64.7, 177.5},
+                            {"Asia/Anadyr", 66.0, -170.0},
+                            {"Pacific/Honolulu", 21.3, -157.9},
+                            {"America/Los_Angeles", 34, -118.2},
+                            {"America/St_Johns", 47.6, -52.7},
+                            {"Europe/Madrid", 42.9, -9.2},
+                            {"Europe/London", 51.5, 0},
+                            {"Asia/Kolkata", 22.6, 88.4},
+                            {"Asia/Urumqi", 43.8, 87.6},
+                            {"Asia/Shanghai", 39.5, 76.0},
+                            {"Australia/Sydney", -33.9, 151.2},
+                            {"solar", -17.0, 179.9},
+                            {"solar", -17.0, -179.9}};
 
 TEST(Windows, aDateIsTheClocksAllAroundTheEarth) {
   for (const auto& [name, latitude, longitude] : kClocked)
