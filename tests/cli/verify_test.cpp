@@ -238,6 +238,24 @@ TEST_F(Verify, NearItsThresholdItTellsOfOtherConventions) {
   EXPECT_THAT(far.out, Not(HasSubstr("instead of")));
 }
 
+TEST_F(Verify, NamesMayBeAsLongAsTheFileSystemHasThem) {
+  const auto outputOf = [&](std::size_t length, const std::string& extension) {
+    const std::string name = std::string(length - extension.size(), 'a') + extension;
+    return run({"verify", writeBox(), "--preset", "china-dahan-2", "--points", points(), "-o", file(name)}, kBeijing);
+  };
+  for (const char* extension : {".html", ".csv", ".svg"}) {
+    const Ran ran = outputOf(300, extension);
+    EXPECT_EQ(ran.code, 3) << extension;
+    EXPECT_THAT(ran.err, HasSubstr("File name too long")) << extension;
+  }
+  // The ledger beside it would be too long.
+  const Ran beside = outputOf(255, ".csv");
+  EXPECT_EQ(beside.code, 3);
+  EXPECT_THAT(beside.err, HasSubstr("File name too long"));
+  const Ran longest = outputOf(255, ".svg");
+  EXPECT_EQ(longest.code, 0) << longest.err;
+}
+
 TEST_F(Verify, ExtensionsMayBeInCapitals) {
   for (const char* name : {"e.CSV", "e.Svg", "e.GEOJSON"}) {
     const Ran ran =
