@@ -93,6 +93,19 @@ TEST(Windows, clocks) {
   EXPECT_EQ((*windowOn(w, kDay(2026, 1, 10), sydney, false)).from, std::chrono::sys_days(kDay(2026, 1, 9)) + 23h);
 }
 
+// docs/verify.md names these figures.
+TEST(Windows, eightHoursOfTheSunByTheClock) {
+  const Calendar c{place(39.9, 116.4), *sun::parseZone("+08:00"), kDay(2026, 1, 1)};
+  std::chrono::milliseconds least = 24h, most = 0h;
+  for (int day = 0; day < 365; ++day) {
+    const auto date = std::chrono::year_month_day(std::chrono::sys_days(kDay(2026, 1, 1)) + std::chrono::days(day));
+    const auto length = windowOn({Clock::solar, 8h, 16h, {}, {}}, date, c, false)->length();
+    least = std::min(least, length), most = std::max(most, length);
+  }
+  EXPECT_EQ(std::chrono::round<std::chrono::seconds>(least), 7h + 59min + 53s);
+  EXPECT_EQ(std::chrono::round<std::chrono::seconds>(most), 8h + 10s);
+}
+
 TEST(Windows, clocksThatAreSetWithinAWindow) {
   const Calendar c{place(48.2, 16.37), *sun::parseZone("Europe/Vienna"), kDay(2026, 1, 1)};
   const auto of = [&](std::chrono::milliseconds from, std::chrono::milliseconds to, std::chrono::year_month_day date) {
