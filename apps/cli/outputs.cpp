@@ -17,8 +17,10 @@ namespace umbrage::cli {
 namespace {
 
 Result<void> checkWritable(const std::filesystem::path& path) {
-  std::error_code ignored;
-  const auto status = std::filesystem::status(path, ignored);
+  std::error_code ignored, fault;
+  const auto status = std::filesystem::status(path, fault);
+  if (fault == std::errc::filename_too_long)
+    return fail(ErrorCode::output, "cannot be written: " + fault.message(), path.string());
   if (std::filesystem::is_directory(status)) return fail(ErrorCode::output, "is a folder, not a file", path.string());
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     return fail(ErrorCode::output, "is not a regular file and is left alone", path.string());

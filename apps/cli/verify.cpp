@@ -110,6 +110,7 @@ Result<Outcome> run(const VerifyOptions& o, const Console& console) {
   report.request = {*place, o.place.zone, o.place.date, o.sensitivity};
   report.request.casters = o.scene.casters;
   report.request.days = rules::makeSunDays();
+  report.metresPerUnit = scene->metresPerUnit;
   auto grounds = groundsOf(o.rule, *rule, *scene, report.request);
   if (!grounds) return tl::unexpected(grounds.error());
   const scene::Scene* before = *baseline ? &**baseline : nullptr;

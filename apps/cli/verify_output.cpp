@@ -29,9 +29,9 @@ const char* passText(bool passes) { return passes ? "passes" : "fails"; }
 
 std::string receiverText(const VerdictReport& r, const Finding& f, const ReceiverResult& result) {
   const Measure& m = requirementOf(r, f).anyOf[result.measure];
-  const Vec3& p = placeOf(r, result);
-  std::string text = fmt::format("{} {}, {} {}; {} at {:g},{:g},{:g}", duration(result.value), quantity(m),
-                                 comparison(m), duration(result.threshold), sun::dateText(result.date), p.x, p.y, p.z);
+  std::string text =
+      fmt::format("{} {}, {} {}; {} at {}", duration(result.value), quantity(m), comparison(m),
+                  duration(result.threshold), sun::dateText(result.date), positionText(r, placeOf(r, result), ","));
   if (!result.spans.empty()) text += " [" + spansText(r, result.spans) + "]";
   return text;
 }
@@ -40,8 +40,9 @@ std::string findingText(const VerdictReport& r, const Finding& f) {
   const Requirement& requirement = requirementOf(r, f);
   std::string text = fmt::format("  {}: {}: {}\n", f.group, requirement.name, passText(f.passes));
   if (f.newShare)
-    return text + fmt::format("    {:.4f} % of the year's sun is newly shaded ({:.1f} m2 h), at most {:g} %\n",
-                              100.0 * *f.newShare, f.newAreaHours, 100.0 * *requirement.mostNew);
+    return text + fmt::format("    {:.4f} % of {} is newly shaded ({}), at most {:g} %\n", 100.0 * *f.newShare,
+                              sunOfDays(r, requirement.anyOf.front()), newShadowText(r, f.newAreaHours),
+                              100.0 * *requirement.mostNew);
   text += fmt::format("    {:.1f} % of {} receivers{} pass, {:.1f} % wanted", 100.0 * f.share, f.receivers.size(),
                       r.targets.step > 0.0 ? " by area" : "", 100.0 * f.wanted);
   if (f.formerShare) text += fmt::format(" ({:.1f} % before)", 100.0 * *f.formerShare);
@@ -123,7 +124,7 @@ Json receiverJson(const VerdictReport& r, const Finding& f, const ReceiverResult
 Json findingJson(const VerdictReport& r, const Finding& f) {
   Json json = {{"requirement", requirementOf(r, f).name}, {"group", f.group}, {"passes", f.passes}};
   if (f.newShare) {
-    json["new_share"] = *f.newShare, json["new_area_hours"] = f.newAreaHours;
+    json["new_share"] = *f.newShare, json[r.targets.step > 0.0 ? "new_area_hours" : "new_hours"] = f.newAreaHours;
     json["at_most"] = *requirementOf(r, f).mostNew;
     return json;
   }
@@ -186,9 +187,13 @@ void addPoints(report::VectorMap& map, const VerdictReport& r, const Finding& f,
         addLayer(map, std::string("points that ") + (result.passes ? "pass" : "fail"), result.passes ? 0.2 : 0.9, true),
         square(study::mapPoint(placeOf(r, result), scene.up), kMarker / scene.metresPerUnit),
         {}};
-    feature.properties = {{"requirement", requirementOf(r, f).name}, {"hours", result.value},
-                          {"of", std::string(quantity(m))},          {"threshold_hours", result.threshold},
-                          {"margin_hours", result.margin},           {"date", sun::dateText(result.date)},
+    feature.properties = {{"requirement", requirementOf(r, f).name},
+                          {"at", positionText(r, placeOf(r, result), ",")},
+                          {"hours", result.value},
+                          {"of", std::string(quantity(m))},
+                          {"threshold_hours", result.threshold},
+                          {"margin_hours", result.margin},
+                          {"date", sun::dateText(result.date)},
                           {"times", spansText(r, result.spans)}};
     map.features.push_back(std::move(feature));
   }

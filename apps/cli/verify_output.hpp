@@ -24,6 +24,7 @@ struct VerdictReport {
   rules::TargetSet targets;
   std::vector<rules::Area> areas;  ///< the open spaces, or the site
   std::vector<DayNews> news;
+  double metresPerUnit = 1.0;  ///< of the scene, in which receivers lie
 };
 
 [[nodiscard]] std::string verdictText(const VerdictReport& report);

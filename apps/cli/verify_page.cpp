@@ -43,7 +43,9 @@ std::vector<report::DayPart> partsOf(const VerdictReport& r, std::chrono::year_m
 }
 
 std::string found(const VerdictReport& r, const Finding& f) {
-  if (f.newShare) return fmt::format("{:.4f} % newly shaded ({:.1f} m2 h)", 100.0 * *f.newShare, f.newAreaHours);
+  if (f.newShare)
+    return fmt::format("{:.4f} % of {} newly shaded ({})", 100.0 * *f.newShare,
+                       sunOfDays(r, requirementOf(r, f).anyOf.front()), newShadowText(r, f.newAreaHours));
   if (f.receivers.size() == 1 && f.deciding) {
     const ReceiverResult& only = f.receivers[*f.deciding];
     return fmt::format("{} {}", duration(only.value), quantity(measureOf(r, f, only)));
@@ -89,9 +91,8 @@ std::vector<std::size_t> worstFirst(const Finding& f) {
 }
 
 report::DayBar barOf(const VerdictReport& r, const ReceiverResult& result, bool tellsDate) {
-  const Vec3& p = placeOf(r, result);
   report::DayBar bar;
-  bar.name = fmt::format("{:.6g}, {:.6g}, {:.6g}", p.x, p.y, p.z);
+  bar.name = positionText(r, placeOf(r, result), ", ");
   if (tellsDate) bar.name += ", " + sun::dateText(result.date);
   bar.figure = duration(result.value);
   bar.passes = result.passes;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace umbrage::cli {
@@ -46,6 +47,35 @@ const char* comparison(const rules::Measure& m) {
   }
   return "";
 }
+std::string positionText(const VerdictReport& r, const Vec3& position, std::string_view separator) {
+  constexpr double kPlacesOfMetres = 3.0;
+  const double places = std::ceil(kPlacesOfMetres + std::log10(r.metresPerUnit) - 1e-9);
+  const int digits = int(std::clamp(places, 0.0, 12.0));
+  std::string text;
+  for (const double value : {position.x, position.y, position.z}) {
+    std::string number = fmt::format("{:.{}f}", value, digits);
+    if (digits > 0) number.erase(number.find_last_not_of('0') + 1);
+    if (number.back() == '.') number.pop_back();
+    if (number == "-0") number = "0";
+    if (!text.empty()) text += separator;
+    text += number;
+  }
+  return text;
+}
+
+std::string sunOfDays(const VerdictReport& r, const rules::Measure& m) {
+  constexpr auto kYear = std::chrono::days(365);
+  const auto dates = rules::datesOf(m, r.request);
+  if (dates.size() == 1) return "the sun of " + sun::dateText(dates.front());
+  const auto length = std::chrono::sys_days(dates.back()) - std::chrono::sys_days(dates.front()) + std::chrono::days(1);
+  if (m.days.kind == rules::Days::Kind::range && length >= kYear) return "the year's sun";
+  return fmt::format("the sun of {} days", dates.size());
+}
+
+std::string newShadowText(const VerdictReport& r, double hours) {
+  return r.targets.step > 0.0 ? fmt::format("{:.1f} m2 h", hours) : duration(hours) + " in all";
+}
+
 const rules::Requirement& requirementOf(const VerdictReport& r, const rules::Finding& f) {
   return r.verdict.rule.requirements[f.requirement];
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "verify_output.hpp"
 
@@ -17,6 +18,13 @@ namespace umbrage::cli {
 [[nodiscard]] const char* quantity(const rules::Measure& measure);
 /// "at least".
 [[nodiscard]] const char* comparison(const rules::Measure& measure);
+
+/// "85002.7,447466.12,1.933": to the millimetre, so that no two receivers read alike, and without zeros at the end.
+[[nodiscard]] std::string positionText(const VerdictReport& report, const Vec3& position, std::string_view separator);
+/// Whose sun a share of new shadow is of: "the year's sun", "the sun of 2026-03-21", "the sun of 49 days".
+[[nodiscard]] std::string sunOfDays(const VerdictReport& report, const rules::Measure& measure);
+/// Hours of new shadow, summed over receivers: "12.5 m2 h" on areas, "1:30:00 in all" of points.
+[[nodiscard]] std::string newShadowText(const VerdictReport& report, double hours);
 
 [[nodiscard]] const rules::Requirement& requirementOf(const VerdictReport& report, const rules::Finding& finding);
 /// That of rules::decidingOf.

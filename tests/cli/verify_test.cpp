@@ -120,6 +120,49 @@ TEST_F(Verify, SharesOfNewShadowAreInTheTableToo) {
 }
 
 // A spreadsheet runs what begins like a formula.
+// Points have no square metres, and a day is no year.
+TEST_F(Verify, SharesOfNewShadowAreOfTheSunThatIsLookedAt) {
+  const auto box = writeBox("box.off", 20), before = writeBox("before.off", 5);
+  Json rule = {{"name", "mine"}, {"title", "t"}, {"source", "s"}, {"receivers", {{"kind", "points"}}}};
+  const auto ranFor = [&](const char* kind, const Json& days, const std::string& option, const std::string& file) {
+    rule["receivers"]["kind"] = kind;
+    rule["requirements"] = {{{"name", "r"}, {"days", days}, {"at_most_new_share", 0.9}}};
+    const Ran ran =
+        run({"verify", box, "--baseline", before, "--preset", write("mine.json", rule.dump()), option, file}, kNewYork);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return ran.out;
+  };
+  const Json day = {{"dates", {"03-21"}}}, days = {{"dates", {"03-21", "12-21"}}},
+             year = {{"from", "03-01"}, {"to", "02-29"}};
+  EXPECT_THAT(ranFor("points", day, "--points", points()),
+              testing::ContainsRegex("% of the sun of 2026-03-21 is newly shaded [(][0-9]+:[0-9:]+ in all[)]"));
+  EXPECT_THAT(ranFor("points", days, "--points", points()), HasSubstr("% of the sun of 2 days is newly shaded"));
+  EXPECT_THAT(ranFor("areas", day, "--areas", park()),
+              testing::ContainsRegex("% of the sun of 2026-03-21 is newly shaded [(][0-9.]+ m2 h[)]"));
+  EXPECT_THAT(ranFor("points", year, "--points", points()), HasSubstr("% of the year's sun is newly shaded"));
+}
+
+// Coordinates of maps have six digits before the point alone.
+TEST_F(Verify, PlacesAreToldApart) {
+  const auto far = write("far.csv", "x,y,z,nx,ny,nz\n85002.7123,5800010.12,1.93333,0,-1,0\n");
+  const auto outputOf = [&](const std::string& name) {
+    return run({"verify", writeBox(), "--preset", "china-dahan-2", "--points", far, "-o", file(name)}, kBeijing);
+  };
+  const Ran page = outputOf("page.html");
+  EXPECT_EQ(page.code, 0) << page.err;
+  EXPECT_THAT(page.out, HasSubstr(" at 85002.712,5800010.12,1.933 ["));
+  EXPECT_THAT(read("page.html"), HasSubstr("85002.712, 5800010.12, 1.933"));
+  const Json map = Json::parse(read("page.geojson"));
+  bool found = false;
+  for (const Json& feature : map.at("features"))
+    found = found || feature.at("properties").value("at", "") == "85002.712,5800010.12,1.933";
+  EXPECT_TRUE(found);
+  // A millimetre, whatever the scene's unit is.
+  const auto small = write("mm.csv", "x,y,z,nx,ny,nz\n8502.7123,-0.1,1500,0,-1,0\n");
+  const Ran ran = run({"verify", writeBox(), "--unit", "mm", "--preset", "china-dahan-2", "--points", small}, kBeijing);
+  EXPECT_THAT(ran.out, HasSubstr(" at 8503,0,1500 [")) << ran.err;
+}
+
 TEST_F(Verify, NamesInTablesAreNoFormulas) {
   const auto area = write("area.geojson", R"json({"type":"Feature","properties":{"name":"=HYPERLINK(\"http://a\")"},
       "geometry":{"type":"Polygon","coordinates":[[[-4,2],[4,2],[4,8],[-4,2]]]},"crs":null})json");
@@ -193,6 +236,24 @@ TEST_F(Verify, NearItsThresholdItTellsOfOtherConventions) {
   EXPECT_THAT(always.out, HasSubstr("Asia/Shanghai instead of true solar time"));
   const Ran far = run({"verify", writeBox(), "--preset", "china-dahan-2", "--points", points()}, kBeijing);
   EXPECT_THAT(far.out, Not(HasSubstr("instead of")));
+}
+
+TEST_F(Verify, NamesMayBeAsLongAsTheFileSystemHasThem) {
+  const auto outputOf = [&](std::size_t length, const std::string& extension) {
+    const std::string name = std::string(length - extension.size(), 'a') + extension;
+    return run({"verify", writeBox(), "--preset", "china-dahan-2", "--points", points(), "-o", file(name)}, kBeijing);
+  };
+  for (const char* extension : {".html", ".csv", ".svg"}) {
+    const Ran ran = outputOf(300, extension);
+    EXPECT_EQ(ran.code, 3) << extension;
+    EXPECT_THAT(ran.err, HasSubstr("File name too long")) << extension;
+  }
+  // The ledger beside it would be too long.
+  const Ran beside = outputOf(255, ".csv");
+  EXPECT_EQ(beside.code, 3);
+  EXPECT_THAT(beside.err, HasSubstr("File name too long"));
+  const Ran longest = outputOf(255, ".svg");
+  EXPECT_EQ(longest.code, 0) << longest.err;
 }
 
 TEST_F(Verify, ExtensionsMayBeInCapitals) {

@@ -71,6 +71,38 @@ TEST(ConformanceOfEyes, InFacesOfCasters) {
   for (const shadow::TechniqueEntry& entry : askedWays()) judgeTechnique(entry, c, geometry);
 }
 
+// Two sheets, one over the other.
+scene::Scene sheets() {
+  mesh::Mesh m;
+  for (const double z : {2.0, 1.0})
+    for (const Vec2& at : {Vec2(-3, -2), Vec2(3, -2), Vec2(3, 2), Vec2(-3, 2)}) m.positions.emplace_back(at.x, at.y, z);
+  m.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  scene::Scene s;
+  s.materials.emplace_back();
+  s.meshes.push_back(std::make_shared<const mesh::Mesh>(std::move(m)));
+  s.instances.push_back({.name = "sheets"});
+  return s;
+}
+
+// The plane across the view then holds an edge that the eye lies on: the picture of its triangle has no extent at all.
+TEST(ConformanceOfEyes, OnEdgesOfCastersAcrossTheView) {
+  for (const bool isSolid : {true, false}) {
+    Case c = makeCase("box");
+    if (!isSolid) c.scene = scene::withGround(sheets(), 0.0);
+    const auto geometry = shadow::makeGeometry(c.scene);
+    const shadow::CasterSet& casters = geometry->casters;
+    c.views.clear();
+    for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)
+      for (unsigned k = 0; k < 3; ++k) {
+        const Vec3 a = casters.corner(t, k), b = casters.corner(t, (k + 1) % 3), third = casters.corner(t, (k + 2) % 3);
+        const Vec3 eye = 0.625 * a + 0.375 * b + geometry->surfaces.origin;
+        const Vec3 along = glm::normalize(glm::cross(glm::cross(b - a, third - a), b - a));
+        c.views.push_back({"edge " + std::to_string(3 * t + k), looking(eye, eye + (t % 2 == 0 ? 1.0 : -1.0) * along, 70, 80, 60)});
+      }
+    for (const shadow::TechniqueEntry& entry : allTechniques()) judgeTechnique(entry, c, geometry);
+  }
+}
+
 // Sixteen pixels of every view and light, those on which brute force is sure.
 TEST_P(Conformance, TheTruthAgreesWithBruteForce) {
   const Case c = makeCase(GetParam());

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -31,9 +32,19 @@ class Descriptor {
   int fd_;
 };
 
+// Of UTF-8 whole characters.
+std::string beginOf(const std::string& text, std::size_t most) {
+  std::size_t length = std::min(text.size(), most);
+  while (length > 0 && length < text.size() && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) --length;
+  return text.substr(0, length);
+}
+
+// What is added to a name must not make it too long.
+constexpr std::size_t kLongestStem = 100;
+
 std::filesystem::path temporaryBeside(const std::filesystem::path& path) {
   static std::atomic<unsigned> serial{0};
-  const auto name = "." + path.stem().string() + "." + std::to_string(::getpid()) + "." +
+  const auto name = "." + beginOf(path.stem().string(), kLongestStem) + "." + std::to_string(::getpid()) + "." +
                     std::to_string(serial.fetch_add(1)) + ".part" + path.extension().string();
   return path.parent_path() / name;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "umbrage/math/predicates.hpp"
 #include "umbrage/parallel/for_each.hpp"
 
 namespace umbrage::raster {
@@ -15,20 +16,36 @@ std::uint8_t outcode(const Vec3& p, double width, double height) {
                                    (p.y > height * p.z) << 3 | (p.z < 0.0) << 4);
 }
 
+constexpr double kLeast = 0x1p-40;  // of the scene
+
+// Whether a point lies on one of the triangles, or within `least` of their boxes and in their planes.
+bool touches(const scene::Surfaces& surfaces, const Vec3& point, double least) {
+  const Vec3 low = point - least, high = point + least;
+  return std::ranges::any_of(surfaces.triangles, [&](const mesh::Triangle& t) {
+    const Vec3 a(surfaces.positions[t[0]]), b(surfaces.positions[t[1]]), c(surfaces.positions[t[2]]);
+    for (int k = 0; k < 3; ++k)
+      if (std::max({a[k], b[k], c[k]}) < low[k] || std::min({a[k], b[k], c[k]}) > high[k]) return false;
+    return liesInPlane(a, b, c, point);
+  });
+}
+
 }  // namespace
 
-PixelSpace pixelSpace(const scene::Camera& camera, const Vec3& origin, double radius,
-                      std::span<const Vec3f> positions) {
+PixelSpace pixelSpace(const scene::Camera& camera, const Vec3& origin, double radius) {
   const scene::PixelRays rays = scene::pixelRays(camera);
   const double reach = std::max(radius, glm::length(camera.eye - origin));
   PixelSpace space;
   space.eye = camera.eye - origin;
-  const Vec3 eye = space.eye;
-  if (std::ranges::any_of(positions, [&](const Vec3f& p) { return Vec3(p) == eye; }))
-    space.eye += 0x1p-40 * reach * Vec3(0.3617, 0.4771, 0.8009);
   space.width = camera.width, space.height = camera.height;
   space.scale = reach > 0.0 ? std::exp2(-std::ceil(std::log2(reach))) : 1.0;
   space.fromScene = space.scale * glm::inverse(Mat3(rays.dx, rays.dy, rays.corner));
+  return space;
+}
+
+PixelSpace pixelSpace(const scene::Camera& camera, const scene::Surfaces& surfaces) {
+  PixelSpace space = pixelSpace(camera, surfaces.origin, surfaces.bounds.radius());
+  const double least = kLeast / space.scale;
+  if (touches(surfaces, space.eye, least)) space.eye += least * Vec3(0.3617, 0.4771, 0.8009);
   return space;
 }
 

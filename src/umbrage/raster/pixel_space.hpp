@@ -7,6 +7,7 @@
 #include "umbrage/base/error.hpp"
 #include "umbrage/math/exact_sign.hpp"
 #include "umbrage/scene/camera.hpp"
+#include "umbrage/scene/surfaces.hpp"
 
 namespace umbrage::raster {
 
@@ -28,9 +29,9 @@ struct PixelSpace {
 };
 
 /// `origin`: that of what will be mapped. `radius`: of the scene, in scene units, for the scale.
-/// `positions`: those that will be mapped. An eye exactly in one of them, from where that has no direction, is moved by 2^-40 of the scene.
-[[nodiscard]] PixelSpace pixelSpace(const scene::Camera& camera, const Vec3& origin, double radius,
-                                    std::span<const Vec3f> positions = {});
+[[nodiscard]] PixelSpace pixelSpace(const scene::Camera& camera, const Vec3& origin, double radius);
+/// Of surfaces. An eye on one of them, from where its corners have no direction or its plane no side, is moved by 2^-40 of the scene.
+[[nodiscard]] PixelSpace pixelSpace(const scene::Camera& camera, const scene::Surfaces& surfaces);
 
 /// The positions of a scene for one camera.
 struct SeenPositions {

@@ -192,11 +192,24 @@ UMBRAGE_VECTOR_UNITS void draw(BandDrawing& band, const Patch& patch) {
   }
 }
 
+// Whether a triangle meets the plane through the eye across the view, or nearly.
+bool isAroundEye(std::span<const Vec3> mapped, const mesh::Triangle& corner) {
+  constexpr double kNearly = 0x1p-40;
+  const double a = mapped[corner[0]].z, b = mapped[corner[1]].z, c = mapped[corner[2]].z;
+  const double low = std::min({a, b, c}), high = std::max({a, b, c}), nearly = kNearly * std::max(-low, high);
+  return low <= nearly && high >= -nearly;
+}
+
 }  // namespace
 
 Shown makeSurfacePatch(const PixelSpace& space, const SeenPositions& positions, const scene::Surfaces& surfaces,
                        std::uint32_t triangle, Patch& out) {
   const mesh::Triangle& corner = surfaces.triangles[triangle];
+  const auto isInPlane = [&] {
+    return liesInPlane(surfaces.corner(triangle, 0), surfaces.corner(triangle, 1), surfaces.corner(triangle, 2), space.eye);
+  };
+  // The eye may lie in the very triangle, which then has no picture to be bounded, but is crossed on every way from the eye.
+  if (isAroundEye(positions.mapped, corner) && isInPlane()) return Shown::edgeOn;
   if ((positions.outside[corner[0]] & positions.outside[corner[1]] & positions.outside[corner[2]]) != 0)
     return Shown::no;
   const Corners corners{positions.mapped, {}};
@@ -206,8 +219,7 @@ Shown makeSurfacePatch(const PixelSpace& space, const SeenPositions& positions, 
   if (out.x0 >= out.x1 || out.y0 >= out.y1) return Shown::no;
   out.id = triangle;
   if (!makePatch(space, corners, {corner[0], corner[1], corner[2]}, false, out)) return Shown::no;
-  if (liesInPlane(surfaces.corner(triangle, 0), surfaces.corner(triangle, 1), surfaces.corner(triangle, 2), space.eye))
-    return Shown::edgeOn;
+  if (isInPlane()) return Shown::edgeOn;
   if (!(out.distance > 0.0)) return Shown::no;
   out.x[3] /= out.distance, out.y[3] /= out.distance, out.c[3] /= out.distance;
   out.distance = 1.0;

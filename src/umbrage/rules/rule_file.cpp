@@ -32,11 +32,18 @@ std::optional<std::chrono::month_day> monthDay(const std::string& text) {
   return date->month() / date->day();
 }
 
+// A day named twice is another one misspelt.
+template <typename Day>
+bool isTwice(const std::vector<Day>& days, const Day& day) {
+  return std::find(days.begin(), days.end(), day) != days.end();
+}
+
 void readDates(JsonReader& in, Days& days) {
   days.kind = Days::Kind::dates;
   for (const std::string& text : in.texts("dates")) {
     const auto day = monthDay(text);
     if (!day) in.wrong("dates", fmt::format("'{}' is no day; write MM-DD", text));
+    if (day && isTwice(days.dates, *day)) in.wrong("dates", fmt::format("'{}' is there twice", text));
     if (day) days.dates.push_back(*day);
   }
   if (days.dates.empty()) in.wrong("dates", "is empty");
@@ -44,8 +51,11 @@ void readDates(JsonReader& in, Days& days) {
 
 void readLongitudes(JsonReader& in, Days& days) {
   days.kind = Days::Kind::longitudes;
-  for (const double degrees : in.numbers("solar_longitudes", 0.0, 359.999))
+  for (const double degrees : in.numbers("solar_longitudes", 0.0, 359.999)) {
+    if (isTwice(days.longitudes, Angle::degrees(degrees)))
+      in.wrong("solar_longitudes", fmt::format("{:g} is there twice", degrees));
     days.longitudes.push_back(Angle::degrees(degrees));
+  }
   if (days.longitudes.empty()) in.wrong("solar_longitudes", "is empty");
 }
 
@@ -96,6 +106,9 @@ Window windowOf(JsonReader& in) {
     in.wrong("", "the window is empty: from is not before to");
   if (const auto minutes = in.number("after_sunrise_minutes", -120, 720)) window.afterSunrise = ofMinutes(*minutes);
   if (const auto minutes = in.number("before_sunset_minutes", -120, 720)) window.beforeSunset = ofMinutes(*minutes);
+  if (window.afterSunrise && window.beforeSunset &&
+      *window.afterSunrise + *window.beforeSunset >= std::chrono::hours(24))
+    in.wrong("", "the window is empty: so long after sunrise and before sunset leave nothing of any day");
   in.finish();
   return window;
 }
@@ -117,6 +130,25 @@ void readThreshold(JsonReader& in, Measure& measure) {
     in.wrong("", "exactly one of at_least_hours, more_than_hours, at_most_hours and less_than_hours is wanted");
 }
 
+std::string thresholdKey(Comparison comparison) {
+  for (const auto& [key, known] : kThresholds)
+    if (known == comparison) return key;
+  return {};
+}
+
+// What the day and its clock give at most, without the sun's own limits, which depend on the place.
+void checkAgainstWindow(JsonReader& in, const Measure& m, bool wantsMore) {
+  const milliseconds window = m.window.to.value_or(std::chrono::hours(24)) - m.window.from.value_or(milliseconds(0));
+  const bool orEqual = m.comparison == Comparison::moreThan || m.comparison == Comparison::atMost;
+  const std::string key = thresholdKey(m.comparison);
+  if (orEqual ? m.threshold >= window : m.threshold > window)
+    in.wrong(key, wantsMore ? fmt::format("{}{:g} h are wanted of a window of {:g} h", orEqual ? "more than " : "",
+                                          hoursOf(m.threshold), hoursOf(window))
+                            : fmt::format("always holds: the window has {:g} h", hoursOf(window)));
+  if (m.leastRun > window)
+    in.wrong("least_run_minutes", fmt::format("never holds: the window has {:g} h", hoursOf(window)));
+}
+
 // What can never hold, or always does, is a slip.
 void checkSense(JsonReader& in, const Measure& m) {
   const bool sunny = m.statistic == Statistic::sun || m.statistic == Statistic::longestSun;
@@ -128,12 +160,7 @@ void checkSense(JsonReader& in, const Measure& m) {
     in.wrong("less_than_hours", "nothing is less than 0 hours");
   if (m.comparison == Comparison::atLeast && m.threshold == milliseconds(0))
     in.wrong("at_least_hours", "0 hours are always there");
-  const milliseconds window = m.window.to.value_or(std::chrono::hours(24)) - m.window.from.value_or(milliseconds(0));
-  const bool beyond = m.comparison == Comparison::moreThan ? m.threshold >= window : m.threshold > window;
-  if (wantsMore && beyond)
-    in.wrong("", fmt::format("{}{:g} h are wanted of a window of {:g} h",
-                             m.comparison == Comparison::moreThan ? "more than " : "", hoursOf(m.threshold),
-                             hoursOf(window)));
+  checkAgainstWindow(in, m, wantsMore);
 }
 
 Measure measureOf(JsonReader& in, const Measure& common, bool hasThreshold) {
@@ -160,6 +187,7 @@ Measure measureOf(JsonReader& in, const Measure& common, bool hasThreshold) {
 // A total over all days and receivers has no measure of its own: what stands beside it and would be passed over is a slip.
 void readNewShare(JsonReader& in, Requirement& r) {
   r.mostNew = in.number("at_most_new_share", 0.0, 1.0);
+  if (r.mostNew == 1.0) in.wrong("at_most_new_share", "always holds: a share below 1 is wanted");
   const auto alone = [&](const char* other) {
     if (in.has(other)) in.wrong(other, "at_most_new_share stands alone, without it");
   };
@@ -213,6 +241,7 @@ Requirement requirementOf(JsonReader& in) {
   r.share = in.number("share", 0.0, 1.0).value_or(1.0);
   if (r.share <= 0.0) in.wrong("share", "a share above 0 is wanted");
   r.former = in.number("or_former_times", 0.0, 1.0);
+  if (r.former == 0.0) in.wrong("or_former_times", "always holds: a number above 0 is wanted");
   if (total) readNewShare(in, r);
   if (r.former &&
       std::any_of(r.anyOf.begin(), r.anyOf.end(), [](const Measure& m) { return m.statistic == Statistic::newShadow; }))
@@ -260,7 +289,12 @@ Rule ruleOf(JsonReader& in) {
   else
     in.wrong("receivers", "is missing");
   if (auto sun = in.object("sun")) readSun(*sun, rule);
-  for (JsonReader& one : in.objects("requirements")) rule.requirements.push_back(requirementOf(one));
+  for (JsonReader& one : in.objects("requirements")) {
+    Requirement requirement = requirementOf(one);
+    for (const Requirement& other : rule.requirements)
+      if (other.name == requirement.name) one.wrong("name", "another requirement has it, too");
+    rule.requirements.push_back(std::move(requirement));
+  }
   if (rule.requirements.empty()) in.wrong("requirements", "is missing or empty");
   if (auto countries = in.object("least_sun_altitude_by_country")) readCountries(*countries, rule);
   for (const Requirement& r : rule.requirements) {

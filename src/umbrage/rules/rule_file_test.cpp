@@ -103,6 +103,31 @@ TEST(RuleFile, contradictionsAndSlipsAreNamed) {
       {with("{\"dates\":[\"03-21\"]}", R"({"dates":["03-21"],"given":true})"), "exclude each other"},
       {with("{\"dates\":[\"03-21\"]}", R"({"dates":["03-21"],"givn":true})"),
        "there are dates, solar_longitudes, from"},
+      // What always holds, or never.
+      {with("\"statistic\":\"sun\",\"at_least_hours\":2", "\"statistic\":\"shadow\",\"at_most_hours\":10"),
+       "requirements[0].at_most_hours: always holds: the window has 8 h"},
+      {with("\"statistic\":\"sun\",\"at_least_hours\":2", "\"statistic\":\"shadow\",\"at_most_hours\":8"),
+       "requirements[0].at_most_hours: always holds"},
+      {with("\"statistic\":\"sun\",\"at_least_hours\":2", "\"statistic\":\"new_shadow\",\"less_than_hours\":24"),
+       "requirements[0].less_than_hours: always holds"},
+      {with("\"statistic\":\"sun\",\"at_least_hours\":2", "\"at_most_new_share\":1"),
+       "requirements[0].at_most_new_share: always holds"},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"or_former_times\":0"),
+       "requirements[0].or_former_times: always holds"},
+      {with("\"at_least_hours\":2", "\"at_least_hours\":2,\"least_run_minutes\":720"),
+       "requirements[0].least_run_minutes: never holds: the window has 8 h"},
+      {with("\"statistic\":\"sun\",\"at_least_hours\":2",
+            "\"any\":[{\"at_least_hours\":2},{\"statistic\":\"shadow\",\"at_most_hours\":8}]"),
+       "requirements[0].any[1].at_most_hours: always holds"},
+      {with("\"from\":\"08:00\",\"to\":\"16:00\"", "\"after_sunrise_minutes\":720,\"before_sunset_minutes\":720"),
+       "requirements[0].window: the window is empty"},
+      // The same twice.
+      {with("{\"dates\":[\"03-21\"]}", R"({"dates":["03-21","12-21","03-21"]})"),
+       "requirements[0].days.dates: '03-21' is there twice"},
+      {with("{\"dates\":[\"03-21\"]}", R"({"solar_longitudes":[270,270]})"),
+       "requirements[0].days.solar_longitudes: 270 is there twice"},
+      {with("\"requirements\":[{", R"("requirements":[{"name":"2 h","days":{"given":true},"at_least_hours":1},{)"),
+       "requirements[1].name: another requirement has it, too"},
       // A share of new shadow has no measure of its own.
       {with("\"at_least_hours\":2", "\"at_most_new_share\":0.1"), "requirements[0].statistic: at_most_new_share is of"},
       {with("\"statistic\":\"sun\",\"at_least_hours\":2", "\"at_most_new_share\":0.1,\"least_run_minutes\":5"),
@@ -143,6 +168,21 @@ TEST(RuleFile, whatMayBeLeftOut) {
       "a");
   ASSERT_TRUE(share) << share.error().text();
   EXPECT_TRUE(needsBaseline(*share));
+}
+
+// As much as can be asked for without its holding always or never.
+TEST(RuleFile, borderlinesOfSense) {
+  const std::string sun = "\"statistic\":\"sun\",\"at_least_hours\":2";
+  for (const char* measure :
+       {R"("statistic":"sun","at_least_hours":8)", R"("statistic":"shadow","less_than_hours":8)",
+        R"("statistic":"shadow","at_most_hours":7.99)", R"("statistic":"shadow","at_most_hours":0)",
+        R"("at_least_hours":2,"least_run_minutes":480)", R"("at_least_hours":2,"or_former_times":0.01)",
+        R"("at_most_new_share":0.999)"}) {
+    const auto rule = parseRule(with(sun, measure), "a");
+    EXPECT_TRUE(rule) << measure << ": " << (rule ? "" : rule.error().text());
+  }
+  EXPECT_TRUE(parseRule(
+      with("\"from\":\"08:00\",\"to\":\"16:00\"", "\"after_sunrise_minutes\":720,\"before_sunset_minutes\":719"), "a"));
 }
 
 TEST(RuleFile, textsAreReadInTheirOrder) {

@@ -170,14 +170,57 @@ Result<void> checkCounts(const Rule& rule, const Conventions& conventions) {
   return {};
 }
 
-/// What clocks that are put forward or back do to the windows of a rule, each once.
-std::vector<std::string> clockNotes(const Rule& rule, const Conventions& conventions) {
+/// What the calendar does to the days of a rule, and clocks that are put forward or back to its windows, each once.
+std::vector<std::string> calendarNotes(const Rule& rule, const Conventions& conventions) {
   std::vector<std::string> notes;
+  const auto add = [&](std::vector<std::string> more) {
+    for (std::string& note : more)
+      if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
+  };
   for (const Requirement& r : rule.requirements)
-    for (const Measure& m : r.anyOf)
+    for (const Measure& m : r.anyOf) {
+      add(detail::dateNotes(m.days, conventions.calendar));
       for (const auto& date : detail::datesOf(m.days, conventions.calendar))
-        for (std::string& note : detail::windowNotes(m.window, date, conventions.calendar))
-          if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
+        add(detail::windowNotes(m.window, date, conventions.calendar));
+    }
+  return notes;
+}
+
+std::vector<study::TimeSpan> countingTimes(const Measure& m, std::chrono::year_month_day date, const Conventions& c) {
+  const auto day = detail::dayOf(m, date, c);
+  return day ? day->counting : std::vector<study::TimeSpan>();
+}
+
+/// A day on which a measure fails under open sky, too, and with it the measure. Of a best day all must: the one with the longest sun.
+std::optional<std::chrono::year_month_day> hopelessDay(const Measure& m, const Conventions& conventions) {
+  const auto dates = detail::datesOf(m.days, conventions.calendar);
+  const auto hopeless = [&](std::chrono::year_month_day date) {
+    const auto counting = countingTimes(m, date, conventions);
+    return !detail::holds(m, counting, counting, {});
+  };
+  if (!m.days.best) {
+    const auto found = std::find_if(dates.begin(), dates.end(), hopeless);
+    return found == dates.end() ? std::nullopt : std::optional(*found);
+  }
+  if (!std::all_of(dates.begin(), dates.end(), hopeless)) return std::nullopt;
+  return *std::ranges::max_element(
+      dates, {}, [&](std::chrono::year_month_day date) { return detail::total(countingTimes(m, date, conventions)); });
+}
+
+/// A requirement that the sun itself does not meet, by any of its measures, says nothing of the scene.
+std::vector<std::string> hopelessNotes(const Rule& rule, const Conventions& conventions) {
+  std::vector<std::string> notes;
+  for (const Requirement& r : rule.requirements) {
+    const auto possible = [&](const Measure& m) { return !hopelessDay(m, conventions); };
+    if (std::any_of(r.anyOf.begin(), r.anyOf.end(), possible)) continue;
+    const Measure& first = r.anyOf.front();
+    const auto date = *hopelessDay(first, conventions);
+    const auto seconds =
+        std::chrono::round<std::chrono::seconds>(detail::total(countingTimes(first, date, conventions))).count();
+    notes.push_back(
+        fmt::format("no receiver can have what '{}' asks for: on {} the sun counts for {}:{:02}:{:02} by the clock",
+                    r.name, sun::dateText(date), seconds / 3600, seconds / 60 % 60, seconds % 60));
+  }
   return notes;
 }
 
@@ -207,7 +250,8 @@ std::vector<std::string> warningsOf(const Rule& rule, bool hasBaseline, const Ve
                       r.name, *r.former));
   if (request.zone.kind == sun::Zone::Kind::solar && readsLegalClock(rule))
     warnings.emplace_back("the rule reads the legal clock, which --tz solar does not tell: mean solar time is taken");
-  for (std::string& note : clockNotes(rule, conventions)) warnings.push_back(std::move(note));
+  for (std::string& note : calendarNotes(rule, conventions)) warnings.push_back(std::move(note));
+  for (std::string& note : hopelessNotes(rule, conventions)) warnings.push_back(std::move(note));
   return warnings;
 }
 

@@ -51,7 +51,7 @@ struct Finding {
   double share = 0.0, wanted = 1.0;   ///< of the receivers, by area
   std::optional<double> formerShare;  ///< that passes in the baseline
   std::optional<double> newShare;     ///< with mostNew: new shadow, of all hours that count
-  double newAreaHours = 0.0;          ///< with mostNew: m2 x h
+  double newAreaHours = 0.0;          ///< with mostNew: m2 x h; h where receivers are points
   /// Of the receiver that decides: when it had so much less (or more) sun, the finding would turn. With mostNew a share.
   double margin = 0.0;
   std::optional<std::size_t> deciding;  ///< of `receivers`

@@ -111,6 +111,38 @@ TEST(Verify, aMomentThatClocksLeaveOutIsNoFault) {
 }
 
 // Of two days one has more sun, and one is nearer to what it was before: it is the latter that suits.
+// Hours are those of the clock, also in windows of the sun's: in September its 8 hours last 7 s less, in December 10 s more.
+TEST(Verify, whatTheSunItselfDoesNotGiveIsToldOf) {
+  Rule rule = *findRule("china-dahan-2");
+  Measure& m = rule.requirements[0].anyOf[0];
+  m.threshold = 8h, m.days = {Days::Kind::longitudes, {}, {Angle::degrees(180)}};
+  const VerifyRequest request{kBeijing, *sun::parseZone("+08:00"), kDay, Sensitivity::never};
+  const Verdict september = verdictOf(rule, 0.1, request);
+  EXPECT_FALSE(september.passes);
+  ASSERT_EQ(september.warnings.size(), 1u);
+  EXPECT_EQ(september.warnings[0], "no receiver can have what '" + rule.requirements[0].name +
+                                       "' asks for: on 2026-09-23 the sun counts for 7:59:53 by the clock");
+  // Under open sky it is there in December; of several days one that cannot hold is enough, of a best one it is not.
+  m.days.longitudes = {Angle::degrees(270)};
+  EXPECT_TRUE(verdictOf(rule, 0.1, request).warnings.empty());
+  m.days.longitudes = {Angle::degrees(180), Angle::degrees(270)};
+  EXPECT_EQ(verdictOf(rule, 0.1, request).warnings.size(), 1u);
+  m.days.best = true;
+  EXPECT_TRUE(verdictOf(rule, 0.1, request).warnings.empty());
+  m.threshold = 8h + 5min;  // by no day: the longest one is named
+  EXPECT_THAT(verdictOf(rule, 0.1, request).warnings, testing::ElementsAre(HasSubstr("on 2026-12-2")));
+  // Another measure may hold.
+  m.days.best = false;
+  rule.requirements[0].anyOf.push_back(m);
+  rule.requirements[0].anyOf[1].threshold = 2h;
+  EXPECT_TRUE(verdictOf(rule, 0.1, request).warnings.empty());
+  // Nor does the sun rise that high.
+  rule.requirements[0].anyOf.pop_back();
+  rule.requirements[0].anyOf[0].threshold = 2h;
+  rule.requirements[0].anyOf[0].leastAltitude = Angle::degrees(80);
+  EXPECT_THAT(verdictOf(rule, 0.1, request).warnings, testing::ElementsAre(HasSubstr("counts for 0:00:00 by")));
+}
+
 TEST(Verify, theBestDayIsThatOfTheWholeRule) {
   const sun::Place london = place(51.5, -0.1);
   Rule rule = *findRule("bre209");

@@ -1,5 +1,7 @@
 #include "umbrage/rules/detail/days.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +19,7 @@ using study::TimeSpan;
 
 // The upper limb on the horizon, lifted by the air.
 constexpr Angle kAlmanacHorizon = Angle::degrees(-0.833);
+const sun::Zone kSolar{sun::Zone::Kind::solar, "solar", {}};
 
 double longitudeAt(sun::Instant instant) {
   const double days = double((instant - sys_days(std::chrono::year(2000) / 1 / 1)).count()) / 86400e3 - 0.5;
@@ -34,10 +37,15 @@ year_month_day inYear(const month_day& day, std::chrono::year year) {
   return date.ok() ? date : year_month_day(year / day.month() / std::chrono::last);
 }
 
+// Of a range that passes New Year the last day is in the next year.
+std::pair<year_month_day, year_month_day> endsOf(const Days& days, std::chrono::year year) {
+  const auto first = inYear(days.dates[0], year), last = inYear(days.dates[1], year);
+  return {first, last < first ? inYear(days.dates[1], year + std::chrono::years(1)) : last};
+}
+
 std::vector<year_month_day> rangeOf(const Days& days, std::chrono::year year) {
-  const sys_days first(inYear(days.dates[0], year));
-  sys_days last(inYear(days.dates[1], year));
-  if (last < first) last = sys_days(inYear(days.dates[1], year + std::chrono::years(1)));
+  const auto ends = endsOf(days, year);
+  const sys_days first(ends.first), last(ends.second);
   std::vector<year_month_day> dates;
   for (sys_days day = first; day < last; day += std::chrono::days(days.every)) dates.emplace_back(day);
   dates.emplace_back(last);
@@ -68,8 +76,9 @@ sun::Zone legalOf(Clock clock, const Calendar& calendar) {
 std::pair<sun::Moment, sun::Moment> bordersOf(const Window& window, year_month_day date, const Calendar& calendar,
                                               bool clockSwitched) {
   const sun::Zone zone = zoneOf(window.clock, calendar, clockSwitched);
+  const auto day = zone.kind == sun::Zone::Kind::solar ? solarDateOf(date, calendar) : date;
   const auto at = [&](milliseconds time, sun::Twice twice) {
-    return sun::nearestInstantOf(zone, calendar.place, {date, time}, twice);
+    return sun::nearestInstantOf(zone, calendar.place, {day, time}, twice);
   };
   return {at(window.from.value_or(milliseconds(0)), sun::Twice::first),
           at(window.to.value_or(std::chrono::hours(24)), sun::Twice::second)};
@@ -105,12 +114,33 @@ std::vector<year_month_day> datesOf(const Days& days, const Calendar& calendar) 
         dates.push_back(sun::clockAt(calendar.zone, calendar.place, instantOfLongitude(longitude, year)).clock.date);
   }
   std::sort(dates.begin(), dates.end());
+  dates.erase(std::unique(dates.begin(), dates.end()), dates.end());
   return dates;
+}
+
+std::vector<std::string> dateNotes(const Days& days, const Calendar& calendar) {
+  std::vector<year_month_day> dates;
+  for (const month_day& day : days.dates) dates.push_back(inYear(day, calendar.date.year()));
+  if (days.kind == Days::Kind::range) dates[1] = endsOf(days, calendar.date.year()).second;
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < dates.size(); ++i)
+    if (days.dates[i].day() != dates[i].day())
+      notes.push_back(fmt::format("{} has no 29 February: the 28th is taken", int(dates[i].year())));
+  return notes;
+}
+
+year_month_day solarDateOf(year_month_day date, const Calendar& calendar) {
+  if (calendar.zone.kind == sun::Zone::Kind::solar) return date;
+  const auto clockNoon =
+      sun::nearestInstantOf(calendar.zone, calendar.place, {date, std::chrono::hours(12)}, sun::Twice::first);
+  // The mean sun's date is the true one's: at its noon they are never more than 17 minutes apart.
+  const milliseconds east(std::llround(calendar.place.longitude.degrees() * 240e3));
+  return std::chrono::floor<std::chrono::days>(clockNoon.instant + east);
 }
 
 sun::Zone zoneOf(Clock clock, const Calendar& calendar, bool switched) {
   const bool solar = (clock == Clock::solar) != switched;
-  if (solar) return {sun::Zone::Kind::solar, "solar", {}};
+  if (solar) return kSolar;
   return legalOf(clock, calendar);
 }
 
@@ -127,7 +157,7 @@ std::optional<TimeSpan> windowOn(const Window& window, year_month_day date, cons
   const auto [from, to] = bordersOf(window, date, calendar, clockSwitched);
   TimeSpan span{from.instant, to.instant};
   if (window.afterSunrise || window.beforeSunset) {
-    const auto day = sun::sunDay(calendar.place, {sun::Zone::Kind::solar, "solar", {}}, date, {kAlmanacHorizon});
+    const auto day = sun::sunDay(calendar.place, kSolar, solarDateOf(date, calendar), {kAlmanacHorizon});
     UMBRAGE_CHECK(day, "the true sun has a noon every day");
     if (day->kind == sun::SunDay::Kind::alwaysDown) return std::nullopt;
     if (window.afterSunrise && day->rise) span.from = std::max(span.from, *day->rise + *window.afterSunrise);

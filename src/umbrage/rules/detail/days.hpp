@@ -21,8 +21,15 @@ struct Calendar {
 /// Source: Meeus, Astronomical Algorithms, 2nd edition 1998, chapter 25.
 [[nodiscard]] sun::Instant instantOfLongitude(Angle longitude, std::chrono::year year);
 
-/// The dates that a rule looks at, ascending. 29 February is 28 February in years without.
+/// The dates that a rule looks at, ascending, each once. 29 February is 28 February in years without.
 [[nodiscard]] std::vector<std::chrono::year_month_day> datesOf(const Days& days, const Calendar& calendar);
+
+/// What must be known about these dates: a 29 February that the year does not have.
+[[nodiscard]] std::vector<std::string> dateNotes(const Days& days, const Calendar& calendar);
+
+/// What the true sun's clock calls the day that the calendar's clock calls `date`: the day whose solar noon is the one nearest to that clock's noon. Near
+/// the date line the two differ by a day.
+[[nodiscard]] std::chrono::year_month_day solarDateOf(std::chrono::year_month_day date, const Calendar& calendar);
 
 /// The zone of one of the rule's clocks. `switched`: of the other one: the legal clock for the true sun's, the true sun's for others. Where the
 /// calendar's own zone is that of the sun, its legal clock is mean solar time.

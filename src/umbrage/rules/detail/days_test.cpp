@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "umbrage/rules/test_boxes.hpp"
+#include "umbrage/sun/sun_path.hpp"
 
 namespace umbrage::rules::detail {
 namespace {
@@ -56,6 +57,22 @@ TEST(Days, ranges) {
   EXPECT_EQ(datesOf({Days::Kind::given}, c).front(), kDay(2026, 7, 7));
 }
 
+TEST(Days, aTwentyNinthOfFebruaryThatIsNot) {
+  const sun::Zone utc = *sun::parseZone("Z");
+  const Calendar common{place(52, 5), utc, kDay(2026, 1, 1)}, leap{place(52, 5), utc, kDay(2024, 1, 1)};
+  Days days{Days::Kind::dates, {std::chrono::February / 28, std::chrono::February / 29}, {}};
+  EXPECT_EQ(datesOf(days, common), std::vector{kDay(2026, 2, 28)});  // counted once
+  ASSERT_EQ(dateNotes(days, common).size(), 1u);
+  EXPECT_EQ(dateNotes(days, common)[0], "2026 has no 29 February: the 28th is taken");
+  EXPECT_EQ(datesOf(days, leap).size(), 2u);
+  EXPECT_TRUE(dateNotes(days, leap).empty());
+  // A range's last day may be in the next year.
+  days = {Days::Kind::range, {std::chrono::November / 1, std::chrono::February / 29}, {}};
+  EXPECT_EQ(dateNotes(days, leap).at(0), "2025 has no 29 February: the 28th is taken");
+  EXPECT_TRUE(dateNotes(days, {place(52, 5), utc, kDay(2023, 1, 1)}).empty());
+  EXPECT_TRUE(dateNotes({Days::Kind::given}, common).empty());
+}
+
 TEST(Windows, clocks) {
   const Calendar c{place(48.2, 16.37), *sun::parseZone("Europe/Vienna"), kDay(2026, 7, 1)};
   Window w{Clock::zone, 9h, 15h, {}, {}};
@@ -74,6 +91,19 @@ TEST(Windows, clocks) {
   const Calendar sydney{place(-33.9, 151.2), *sun::parseZone("Australia/Sydney"), kDay(2026, 1, 10)};
   w.clock = Clock::standard;
   EXPECT_EQ((*windowOn(w, kDay(2026, 1, 10), sydney, false)).from, std::chrono::sys_days(kDay(2026, 1, 9)) + 23h);
+}
+
+// docs/verify.md names these figures.
+TEST(Windows, eightHoursOfTheSunByTheClock) {
+  const Calendar c{place(39.9, 116.4), *sun::parseZone("+08:00"), kDay(2026, 1, 1)};
+  std::chrono::milliseconds least = 24h, most = 0h;
+  for (int day = 0; day < 365; ++day) {
+    const auto date = std::chrono::year_month_day(std::chrono::sys_days(kDay(2026, 1, 1)) + std::chrono::days(day));
+    const auto length = windowOn({Clock::solar, 8h, 16h, {}, {}}, date, c, false)->length();
+    least = std::min(least, length), most = std::max(most, length);
+  }
+  EXPECT_EQ(std::chrono::round<std::chrono::seconds>(least), 7h + 59min + 53s);
+  EXPECT_EQ(std::chrono::round<std::chrono::seconds>(most), 8h + 10s);
 }
 
 TEST(Windows, clocksThatAreSetWithinAWindow) {
@@ -113,6 +143,83 @@ TEST(Windows, sunriseAndSunset) {
   EXPECT_FALSE(windowOn(w, kDay(2026, 12, 21), north, false).has_value());
   EXPECT_FALSE(windowOn({Clock::solar, {}, {}, 720min, 0min}, kDay(2026, 12, 21), c, false).has_value());
   EXPECT_TRUE(windowOn({Clock::solar, {}, {}, 60min, 60min}, kDay(2026, 6, 21), north, false).has_value());
+}
+
+// On both sides of the date line, where clocks are farthest from the sun's, with and without daylight saving.
+struct Clocked {
+  const char* zone;
+  double latitude, longitude;
+};
+const Clocked kClocked[] = {{"Pacific/Apia", -13.8, -171.8},
+                            {"Pacific/Chatham", -43.9, -176.5},
+                            {"Pacific/Kiritimati", 1.9, -157.4},
+                            {"Pacific/Fiji", -17.0, -179.9},
+                            {"Pacific/Fiji", -17.0, 179.9},
+                            {"Pacific/Fiji", -17.0, 180.0},
+                            {"Pacific/Fiji", -17.0, -180.0},
+                            {"Pacific/Auckland", -36.8, 174.8},
+                            {"America/Adak", 51.9, -176.6},
+                            {"Asia/Anadyr", 64.7, 177.5},
+                            {"Asia/Anadyr", 66.0, -170.0},
+                            {"Pacific/Honolulu", 21.3, -157.9},
+                            {"America/Los_Angeles", 34, -118.2},
+                            {"America/St_Johns", 47.6, -52.7},
+                            {"Europe/Madrid", 42.9, -9.2},
+                            {"Europe/London", 51.5, 0},
+                            {"Asia/Kolkata", 22.6, 88.4},
+                            {"Asia/Urumqi", 43.8, 87.6},
+                            {"Asia/Shanghai", 39.5, 76.0},
+                            {"Australia/Sydney", -33.9, 151.2},
+                            {"solar", -17.0, 179.9},
+                            {"solar", -17.0, -179.9}};
+
+TEST(Windows, aDateIsTheClocksAllAroundTheEarth) {
+  for (const auto& [name, latitude, longitude] : kClocked)
+    for (const auto date : {kDay(2026, 1, 1), kDay(2026, 3, 29), kDay(2026, 7, 1), kDay(2026, 11, 1)}) {
+      const Calendar c{place(latitude, longitude), *sun::parseZone(name), date};
+      const std::string told = std::string(name) + " " + std::to_string(longitude) + " " + sun::dateText(date);
+      const auto clock = [&](sun::Instant t) { return sun::clockAt(c.zone, c.place, t).clock; };
+      const auto solar = windowOn({Clock::solar, 9h, 15h, {}, {}}, date, c, false);
+      ASSERT_TRUE(solar) << told;
+      const sun::Instant noon = solar->from + solar->length() / 2;
+      EXPECT_NEAR(sun::hourAngle(c.place, noon).degrees(), 0.0, 0.1) << told;
+      EXPECT_EQ(clock(noon).date, date) << told;
+      // What sunrise and sunset leave of the clock's own day is all of its sunlight but its first and last hour.
+      const auto lit = windowOn({Clock::zone, 1h, 24h, 60min, 60min}, date, c, false);
+      const auto day = sun::sunDay(c.place, c.zone, date, {Angle::degrees(-0.833)});
+      ASSERT_TRUE(day) << told;
+      if (day->kind == sun::SunDay::Kind::alwaysDown) continue;
+      ASSERT_TRUE(lit) << told;
+      const auto onDate = [&](sun::Instant t) { return clock(t).date == date && clock(t).time > 1h; };
+      if (day->rise && onDate(*day->rise + 60min)) {
+        EXPECT_EQ(lit->from, *day->rise + 60min) << told;
+      }
+      if (day->set && onDate(*day->set - 60min)) {
+        EXPECT_EQ(lit->to, *day->set - 60min) << told;
+      }
+      // The other clock looks at the same day.
+      const auto other = windowOn({Clock::zone, 9h, 15h, {}, {}}, date, c, true);
+      ASSERT_TRUE(other) << told;
+      if (c.zone.kind != sun::Zone::Kind::solar) {
+        EXPECT_EQ(*other, *solar) << told;
+      }
+    }
+}
+
+TEST(Windows, everyLongitudeHasItsOwnNoon) {
+  // Whole hours west and east, as ships have them, and the date line's own clocks on its other side.
+  for (int longitude = -180; longitude <= 180; longitude += 5)
+    for (const double latitude : {-60.0, 0.0, 60.0})
+      for (const int off : {-24, 0, 24}) {
+        const long hour = std::lround(longitude / 15.0) + off;
+        if (std::abs(hour) > 14) continue;
+        const sun::Zone zone{sun::Zone::Kind::fixed, std::to_string(hour), std::chrono::hours(hour)};
+        const Calendar c{place(latitude, longitude), zone, kDay(2026, 2, 11)};
+        const auto day = windowOn({Clock::solar, {}, {}, 0min, 0min}, kDay(2026, 2, 11), c, false);
+        ASSERT_TRUE(day) << longitude << ' ' << hour;
+        EXPECT_EQ(sun::clockAt(zone, c.place, day->from + day->length() / 2).clock.date, kDay(2026, 2, 11))
+            << longitude << ' ' << hour;
+      }
 }
 
 TEST(Counting, fromAnAltitudeUp) {

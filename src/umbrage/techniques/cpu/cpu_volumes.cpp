@@ -37,7 +37,7 @@ Result<void> CpuVolumes::see(const scene::Camera& camera) {
   if (hasSeen(camera)) return {};
   camera_.reset();
   const scene::Surfaces& surfaces = geometry_->surfaces;
-  space_ = raster::pixelSpace(camera, surfaces.origin, surfaces.bounds.radius(), surfaces.positions);
+  space_ = raster::pixelSpace(camera, surfaces);
   if (auto done = raster::mapPositions(space_, surfaces.positions, positions_); !done) return done;
   if (auto done = surfaces_.draw(space_, positions_, seen_); !done) return done;
   invisible_.clear();

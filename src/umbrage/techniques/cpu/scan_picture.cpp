@@ -43,7 +43,7 @@ Result<shadow::Shading> ScanPicture::shade(const shadow::Frame& frame, const Mas
 Result<void> ScanPicture::see(const scene::Camera& camera) {
   const scene::Surfaces& surfaces = geometry_->surfaces;
   camera_ = camera;
-  space_ = raster::pixelSpace(camera, surfaces.origin, surfaces.bounds.radius(), surfaces.positions);
+  space_ = raster::pixelSpace(camera, surfaces);
   if (auto done = raster::mapPositions(space_, surfaces.positions, positions_); !done) return done;
   if (auto done = fillBands(); !done) return done;
   rows_.resize(static_cast<std::size_t>(camera.height));

@@ -23,7 +23,7 @@ TintedVolumes::TintedVolumes(std::shared_ptr<const shadow::Geometry> geometry)
 
 Result<void> TintedVolumes::see(const scene::Camera& camera, std::optional<int> veilLayers, shadow::VeilBuffer& veils) {
   const scene::Surfaces& surfaces = geometry_->surfaces;
-  space_ = raster::pixelSpace(camera, surfaces.origin, surfaces.bounds.radius(), surfaces.positions);
+  space_ = raster::pixelSpace(camera, surfaces);
   if (auto done = raster::mapPositions(space_, surfaces.positions, positions_); !done) return done;
   if (auto done = surfaces_.draw(space_, positions_, seen_); !done) return done;
   if (auto done = veils_.draw(space_, positions_, seen_, veils); !done) return done;
