@@ -40,11 +40,14 @@ std::string findingText(const VerdictReport& r, const Finding& f) {
   const Requirement& requirement = requirementOf(r, f);
   std::string text = fmt::format("  {}: {}: {}\n", f.group, requirement.name, passText(f.passes));
   if (f.newShare)
-    return text + fmt::format("    {:.4f} % of the year's sun is newly shaded ({:.1f} m2 h), at most {:g} %\n",
-                              100.0 * *f.newShare, f.newAreaHours, 100.0 * *requirement.mostNew);
+    return text +
+           fmt::format("    {} of the year's sun is newly shaded ({:.1f} m2 h), at most {:g} %\n",
+                       newShareText(*f.newShare), f.newAreaHours, 100.0 * *requirement.mostNew) +
+           (f.outlines ? "    " + outlinesText(r, f) + "\n" : "");
   text += fmt::format("    {:.1f} % of {} receivers{} pass, {:.1f} % wanted", 100.0 * f.share, f.receivers.size(),
                       r.targets.step > 0.0 ? " by area" : "", 100.0 * f.wanted);
   if (f.formerShare) text += fmt::format(" ({:.1f} % before)", 100.0 * *f.formerShare);
+  if (f.outlines) return text + "\n    " + outlinesText(r, f) + "\n";
   text += fmt::format("\n    deciding, {} to spare: {}\n", duration(f.margin, true),
                       receiverText(r, f, f.receivers[*f.deciding]));
   std::size_t failing = 0;
@@ -120,16 +123,26 @@ Json receiverJson(const VerdictReport& r, const Finding& f, const ReceiverResult
   return json;
 }
 
+Json outlinesJson(const VerdictReport& r, const rules::NewOutlines& o) {
+  return {{"days", o.days},
+          {"area_hours", o.areaHours},
+          {"date", sun::dateText(o.date)},
+          {"area_hours_then", o.areaHoursThen},
+          {"times", spansJson(r, o.spans)}};
+}
+
 Json findingJson(const VerdictReport& r, const Finding& f) {
   Json json = {{"requirement", requirementOf(r, f).name}, {"group", f.group}, {"passes", f.passes}};
   if (f.newShare) {
     json["new_share"] = *f.newShare, json["new_area_hours"] = f.newAreaHours;
     json["at_most"] = *requirementOf(r, f).mostNew;
+    if (f.outlines) json["outlines"] = outlinesJson(r, *f.outlines);
     return json;
   }
   json["share"] = f.share, json["wanted_share"] = f.wanted;
   if (f.formerShare) json["former_share"] = *f.formerShare;
   json["margin_hours"] = f.margin;
+  if (f.outlines) json["outlines"] = outlinesJson(r, *f.outlines);
   json["deciding"] = receiverJson(r, f, f.receivers[*f.deciding]);
   // Grids are in the CSV and on the map.
   if (r.targets.step > 0.0)
@@ -302,6 +315,10 @@ std::string verdictCsv(const VerdictReport& r) {
       text +=
           fmt::format("{},{},,,,,,,,,{},,,,,,{:.10g},{:.10g}\n", csvText(f.group), csvText(requirementOf(r, f).name),
                       f.passes ? 1 : 0, *f.newShare, *requirementOf(r, f).mostNew);
+    else if (f.outlines)
+      text += fmt::format("{},{},,,,,,,,,0,{:.4f},0.0000,{:.4f},{},{},,\n", csvText(f.group),
+                          csvText(requirementOf(r, f).name), -f.margin, f.margin, sun::dateText(f.outlines->date),
+                          spansText(r, f.outlines->spans));
     for (const ReceiverResult& result : f.receivers) {
       const rules::Target& t = r.targets.targets[result.target];
       const Vec3 &p = t.receiver.position, &n = t.receiver.normal;

@@ -43,7 +43,8 @@ std::vector<report::DayPart> partsOf(const VerdictReport& r, std::chrono::year_m
 }
 
 std::string found(const VerdictReport& r, const Finding& f) {
-  if (f.newShare) return fmt::format("{:.4f} % newly shaded ({:.1f} m2 h)", 100.0 * *f.newShare, f.newAreaHours);
+  if (f.outlines) return outlinesText(r, f);
+  if (f.newShare) return fmt::format("{} newly shaded ({:.1f} m2 h)", newShareText(*f.newShare), f.newAreaHours);
   if (f.receivers.size() == 1 && f.deciding) {
     const ReceiverResult& only = f.receivers[*f.deciding];
     return fmt::format("{} {}", duration(only.value), quantity(measureOf(r, f, only)));

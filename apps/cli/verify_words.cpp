@@ -53,6 +53,17 @@ const rules::Measure& decidingMeasure(const rules::Verdict& verdict) {
   const rules::Deciding deciding = rules::decidingOf(verdict);
   return verdict.rule.requirements[verdict.findings[deciding.finding].requirement].anyOf[deciding.measure];
 }
+std::string newShareText(double share) {
+  const std::string text = fmt::format("{:.4f}", 100.0 * share);
+  return (share > 0.0 && text == "0.0000" ? fmt::format("{:.2g}", 100.0 * share) : text) + " %";
+}
+std::string outlinesText(const VerdictReport& r, const rules::Finding& f) {
+  const rules::NewOutlines& o = *f.outlines;
+  return fmt::format(
+      "between the cells' middles the exact outlines show new shadow on {} {}, {:.4g} m2 h; most on {}, {:.4g} m2 h "
+      "[{}]",
+      o.days, o.days == 1 ? "day" : "days", o.areaHours, sun::dateText(o.date), o.areaHoursThen, spansText(r, o.spans));
+}
 const Vec3& placeOf(const VerdictReport& r, const rules::ReceiverResult& result) {
   return r.targets.targets[result.target].receiver.position;
 }

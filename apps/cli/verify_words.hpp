@@ -21,6 +21,10 @@ namespace umbrage::cli {
 [[nodiscard]] const rules::Requirement& requirementOf(const VerdictReport& report, const rules::Finding& finding);
 /// That of rules::decidingOf.
 [[nodiscard]] const rules::Measure& decidingMeasure(const rules::Verdict& verdict);
+/// A share of new shadow; one that rounds to nothing and is not has more digits.
+[[nodiscard]] std::string newShareText(double share);
+/// The new shadow that no middle of a cell sees. REQUIRES: the finding has `outlines`.
+[[nodiscard]] std::string outlinesText(const VerdictReport& r, const rules::Finding& f);
 [[nodiscard]] const Vec3& placeOf(const VerdictReport& report, const rules::ReceiverResult& result);
 
 }  // namespace umbrage::cli

@@ -120,6 +120,34 @@ TEST_F(Verify, SharesOfNewShadowAreInTheTableToo) {
 }
 
 // A spreadsheet runs what begins like a formula.
+// A strip of 0.4 m along the border is new shadow though it reaches no middle of a cell.
+TEST_F(Verify, NoNewShadowIsHeldByOutlines) {
+  const auto town = [&](const char* name, const char* wall) {
+    return write(name,
+                 std::string(R"({"type":"FeatureCollection","crs":null,"features":[)") + wall + R"({"type":"Feature",
+      "properties":{"name":"house","height":15},"geometry":{"type":"Polygon","coordinates":[[[-30,10],[30,10],[30,22],[-30,22],[-30,10]]]}}]})");
+  };
+  const auto now = town("now.geojson", R"({"type":"Feature","properties":{"name":"wall","height":4.68},
+    "geometry":{"type":"Polygon","coordinates":[[[-300,-40],[300,-40],[300,-25],[-300,-25],[-300,-40]]]}},)");
+  const auto before = town("before.geojson", "");
+  const auto park =
+      write("p.geojson", R"({"type":"Feature","crs":null,"properties":{"name":"park"},"geometry":{"type":"Polygon",
+      "coordinates":[[[-30,-20],[30,-20],[30,0],[-30,0],[-30,-20]]]}})");
+  const std::vector<std::string> words{
+      "verify", now,     "--preset", "vancouver", "--areas",           park,     "--baseline", before, "--lat",
+      "49.25",  "--lon", "-123.1",   "--tz",      "America/Vancouver", "--date", "2026-01-01"};
+  const Ran text = umbrage(words);
+  EXPECT_EQ(text.code, 1) << text.err;
+  EXPECT_THAT(text.out, AllOf(StartsWith("FAIL"), HasSubstr("exact outlines show new shadow on 3 days"),
+                              HasSubstr("most on 2026-09-22"), HasSubstr("New shadow on 2026-09-22")));
+  const Json json = Json::parse(run(words, {"--json"}).out);
+  EXPECT_EQ(json.at("findings").at(0).at("outlines").at("days"), 3);
+  EXPECT_EQ(run(words, {"-o", file("o.csv")}).code, 1);
+  EXPECT_THAT(read("o.csv"), HasSubstr("-6.0000,2026-09-22,10:00:00-16:00:00"));
+  EXPECT_EQ(run(words, {"-o", file("o.html")}).code, 1);
+  EXPECT_THAT(read("o.html"), HasSubstr("the exact outlines show new shadow"));
+}
+
 TEST_F(Verify, NamesInTablesAreNoFormulas) {
   const auto area = write("area.geojson", R"json({"type":"Feature","properties":{"name":"=HYPERLINK(\"http://a\")"},
       "geometry":{"type":"Polygon","coordinates":[[[-4,2],[4,2],[4,8],[-4,2]]]},"crs":null})json");

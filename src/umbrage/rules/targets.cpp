@@ -219,7 +219,7 @@ Result<TargetSet> areaTargets(const std::vector<Area>& areas, const scene::Scene
   }
   if (count > double(kMostTargets)) return tooMany(count, kLargerSteps);
   TargetSet out;
-  out.step = step;
+  out.step = step, out.areas = areas, out.height = height;
   const double square = scene.metresPerUnit * scene.metresPerUnit;
   for (const Area& area : areas) {
     std::vector<Vec2> points = middlesWithin(area.region, step);

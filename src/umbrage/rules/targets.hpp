@@ -35,6 +35,10 @@ struct TargetSet {
   std::vector<std::string> groups;  ///< what is judged by itself: the open spaces; one for points
   double step = 0.0;                ///< of grids, in the scene's unit; 0: points
   std::string described;            ///< for the ledger
+  /// Whose cells these are, one a group, and the height of their plane in the scene's unit; empty for points and around sites. Where no new shadow
+  /// at all may lie on them their outlines are asked too.
+  std::vector<Area> areas;
+  double height = 0.0;
 };
 
 /// More receivers than these, some 250 bytes each with what is found at them, are refused before any memory is used.

@@ -382,7 +382,7 @@ std::shared_ptr<const Day> dayOf(const Measure& measure, year_month_day date, co
   if (conventions.fixedDeclination)
     model.declination =
         study::declinationAt(sun::instantOfHourAngle(conventions.calendar.place, span.from + span.length() / 2, {}));
-  Day day{date, study::SunCourse::make(conventions.calendar.place, span, model), {}};
+  Day day{date, study::SunCourse::make(conventions.calendar.place, span, model), {}, model};
   day.counting = countingTimes(day.course, measure.leastAltitude);
   auto made = day.counting.empty() ? nullptr : std::make_shared<const Day>(std::move(day));
   conventions.days->known.emplace(key, made);
