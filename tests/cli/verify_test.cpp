@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "program.hpp"
 
@@ -321,6 +323,31 @@ TEST_F(Verify, JapansSite) {
   const Ran none = run({"verify", wide, "--preset", "japan-4-2.5", "--site", elsewhere}, tokyo);
   EXPECT_EQ(none.code, 2);
   EXPECT_THAT(none.err, HasSubstr("no part that casts"));
+}
+
+// With the same options, and no others, the volume that is written passes; a hundredth more does not.
+TEST_F(Verify, TheTallestVolumePassesBySameOptions) {
+  const auto site =
+      write("site.geojson",
+            R"({"type":"Polygon","crs":null,"coordinates":[[[-15,-45],[15,-45],[15,-20],[-15,-20],[-15,-45]]]})");
+  const std::vector<std::string> asked{"--preset", "japan-3-2", "--site", site,         "--lat", "35.68",
+                                       "--lon",    "139.7",     "--date", "2026-01-01", "--tz",  "Asia/Tokyo"};
+  const Ran grown = run(
+      {"envelope", writeBox("house.off", 10), "--inverse", "--cell", "10", "--max-height", "60", "-o", file("inv.obj")},
+      asked);
+  ASSERT_EQ(grown.code, 0) << grown.err;
+  const Ran passes = run({"verify", file("inv.obj")}, asked);
+  EXPECT_EQ(passes.code, 0) << passes.out << passes.err;
+  std::istringstream lines(read("inv.obj"));
+  std::string raised;
+  for (std::string line; std::getline(lines, line);) {
+    double x = 0.0, y = 0.0, z = 0.0;
+    if (std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &z) == 3)
+      line = "v " + std::to_string(x) + " " + std::to_string(1.01 * y) + " " + std::to_string(z);
+    raised += line + "\n";
+  }
+  const Ran fails = run({"verify", write("raised.obj", raised)}, asked);
+  EXPECT_EQ(fails.code, 1) << fails.out << fails.err;
 }
 
 TEST_F(Verify, TheTallestVolume) {

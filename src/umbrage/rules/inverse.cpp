@@ -20,6 +20,7 @@ using outline::Region;
 
 constexpr double kFine = 1e-3;  // of a height: how closely its limit is found
 constexpr int kTries = 4;
+constexpr double kWhole = 1e-6;     // of a site: what it may be longer than whole cells
 constexpr double kSmallest = 1e-6;  // of a cell: pieces of the site below are left out
 
 // A piece of a plan between two parallels: a convex quadrangle (or triangle).
@@ -86,8 +87,8 @@ Result<std::vector<Column>> columnsOf(const Area& site, const scene::Scene& scen
   Vec2 low(1e300), high(-1e300);
   for (const outline::Polygon& polygon : site.region.polygons)
     for (const Vec2& p : polygon.outer) low = glm::min(low, p), high = glm::max(high, p);
-  // Around the middle, so that a site of whole cells is cut into whole cells.
-  const Vec2 count = glm::max(glm::ceil((high - low) / cell - 1e-9), Vec2(1.0));
+  // Around the middle, so that a site of whole cells is cut into whole cells, in whatever unit its corners were rounded.
+  const Vec2 count = glm::max(glm::ceil((high - low) / cell * (1.0 - kWhole)), Vec2(1.0));
   if (count.x * count.y > 64.0 * double(kMostColumns))
     return fail(ErrorCode::usage,
                 fmt::format("a site this large has too many columns of {:g} m; take larger ones", cell * unit));

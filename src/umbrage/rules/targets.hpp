@@ -59,7 +59,7 @@ struct SiteGrid {
   double reach = 0.0;   ///< metres from the site within which points are wanted
 };
 /// Points on the lines around a site at which the rule's bands begin, and on a grid beyond the nearest of them; of a band without a beginning, and of
-/// a requirement without a band, from the site's border on.
+/// a requirement without a band, from the site's border on. Of a shorter reach they are some of those of a longer one.
 /// REQUIRES: along > 0, step > 0. Errors: usage (the site is empty, the rule looks at no site, more points than kMostTargets).
 [[nodiscard]] Result<TargetSet> siteTargets(const Area& site, const Rule& rule, const scene::Scene& scene,
                                             const SiteGrid& grid);

@@ -314,6 +314,21 @@ TEST(Targets, linesAroundASite) {
   EXPECT_FALSE(siteTargets({"site", site}, *findRule("korea"), sceneOf({}), {4.0, 0.5, 2.0, 30.0}));
 }
 
+// What passes on all that a longer reach looks at passes where a lower scene is looked at.
+TEST(Targets, aShorterReachHasSomeOfTheSamePoints) {
+  const outline::Region site = rectangle({-10, -10}, {10, 11});
+  const auto pointsWithin = [&](double reach) {
+    std::set<std::pair<double, double>> points;
+    const auto set = siteTargets({"site", site}, *findRule("japan-4-2.5"), sceneOf({}), {4.0, 0.25, 1.0, reach});
+    for (const Target& t : set->targets) points.insert({t.receiver.position.x, t.receiver.position.y});
+    return points;
+  };
+  const auto all = pointsWithin(60.0);
+  for (const double reach : {20.0, 30.3, 41.75, 59.5})
+    for (const auto& p : pointsWithin(reach))
+      ASSERT_TRUE(all.contains(p)) << reach << ' ' << p.first << ' ' << p.second;
+}
+
 TEST(Targets, onlyWhatStandsOnTheSiteCasts) {
   const auto scene = castersOnSite(sceneOf({{{0, 0, 0}, {4, 4, 9}, "ours"}, {{50, 0, 0}, {54, 4, 9}, "theirs"}}),
                                    {"site", rectangle({-10, -10}, {10, 10})});
