@@ -44,12 +44,15 @@ std::string findingText(const VerdictReport& r, const Finding& f) {
            fmt::format("    {} of the year's sun is newly shaded ({:.1f} m2 h), at most {:g} %\n",
                        newShareText(*f.newShare), f.newAreaHours, 100.0 * *requirement.mostNew) +
            (f.outlines ? "    " + outlinesText(r, f) + "\n" : "");
-  text += fmt::format("    {:.1f} % of {} receivers{} pass, {:.1f} % wanted", 100.0 * f.share, f.receivers.size(),
-                      r.targets.step > 0.0 ? " by area" : "", 100.0 * f.wanted);
-  if (f.formerShare) text += fmt::format(" ({:.1f} % before)", 100.0 * *f.formerShare);
+  text += fmt::format("    {} of {} receivers{} pass, {} wanted", percent(f.share), f.receivers.size(),
+                      r.targets.step > 0.0 ? " by area" : "", percent(f.wanted));
+  if (f.formerShare) text += fmt::format(" ({} before)", percent(*f.formerShare));
+  if (const std::string lines = failingLines(r, f); !lines.empty()) text += "; " + lines;
   if (f.outlines) return text + "\n    " + outlinesText(r, f) + "\n";
-  text += fmt::format("\n    deciding, {} to spare: {}\n", duration(f.margin, true),
-                      receiverText(r, f, f.receivers[*f.deciding]));
+  text += fmt::format(
+      "\n    {}: {}\n",
+      std::isinf(f.margin) ? "nothing has to pass; the best" : "deciding, " + duration(f.margin, true) + " to spare",
+      receiverText(r, f, f.receivers[*f.deciding]));
   std::size_t failing = 0;
   for (const ReceiverResult& result : f.receivers) {
     if (result.passes || &result == &f.receivers[*f.deciding]) continue;
@@ -89,7 +92,9 @@ std::string switchesText(const VerdictReport& r) {
       std::string(v.nearThreshold ? "Near a threshold. W" : "W") + "ith one convention turned at a time:\n";
   for (const rules::SwitchOutcome& s : v.switches)
     text += fmt::format("  {:<12} {} instead of {}: {}{}\n", s.name, s.instead, s.taken, passText(s.passes),
-                        v.findings.front().newShare ? "" : fmt::format(", {} to spare", duration(s.margin, true)));
+                        v.findings.front().newShare || std::isinf(s.margin)
+                            ? ""
+                            : fmt::format(", {} to spare", duration(s.margin, true)));
   return text;
 }
 
@@ -141,7 +146,7 @@ Json findingJson(const VerdictReport& r, const Finding& f) {
   }
   json["share"] = f.share, json["wanted_share"] = f.wanted;
   if (f.formerShare) json["former_share"] = *f.formerShare;
-  json["margin_hours"] = f.margin;
+  if (std::isfinite(f.margin)) json["margin_hours"] = f.margin;
   if (f.outlines) json["outlines"] = outlinesJson(r, *f.outlines);
   json["deciding"] = receiverJson(r, f, f.receivers[*f.deciding]);
   // Grids are in the CSV and on the map.
@@ -289,8 +294,11 @@ Json verdictJson(const VerdictReport& r) {
                {"checked", v.rule.checked},     {"ledger", Json::object()}};
   for (const Finding& f : v.findings) json["findings"].push_back(findingJson(r, f));
   for (const rules::SwitchOutcome& s : v.switches)
-    json["switches"].push_back(
-        {{"name", s.name}, {"taken", s.taken}, {"instead", s.instead}, {"passes", s.passes}, {"margin", s.margin}});
+    json["switches"].push_back({{"name", s.name},
+                                {"taken", s.taken},
+                                {"instead", s.instead},
+                                {"passes", s.passes},
+                                {"margin", std::isfinite(s.margin) ? Json(s.margin) : Json()}});
   for (const DayNews& day : r.news) json["new_shadow"].push_back(newsJson(r, day));
   for (const study::LedgerLine& line : v.ledger) json["ledger"][line.subject] = line.text;
   return json;

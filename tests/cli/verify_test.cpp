@@ -150,6 +150,39 @@ TEST_F(Verify, NoNewShadowIsHeldByOutlines) {
   EXPECT_THAT(read("o.html"), HasSubstr("the exact outlines show new shadow"));
 }
 
+TEST_F(Verify, SharesTellNoneAndAllFromTheRest) {
+  Json rule = Json::parse(umbrage({"verify", "--print-preset", "bre209"}).out);
+  rule["requirements"][0].erase("or_former_times");
+  rule["requirements"][0]["share"] = 1;
+  const auto mine = write("mine.json", rule.dump());
+  const auto wide =
+      write("wide.geojson", R"({"type":"Feature","properties":{"name":"field"},"geometry":{"type":"Polygon",
+      "coordinates":[[[-60,-60],[60,-60],[60,60],[-60,60],[-60,-60]]]},"crs":null})");
+  const std::vector<std::string> london{"--lat", "51.5", "--lon", "0", "--date", "2026-03-21", "--tz", "Europe/London"};
+  const Ran few = run({"verify", writeBox("low.off", 0.2), "--preset", mine, "--areas", wide}, london);
+  EXPECT_EQ(few.code, 1) << few.err;
+  EXPECT_THAT(few.out, HasSubstr("99.97 % of 14400 receivers by area pass, 100.0 % wanted"));
+}
+
+// Nothing of a yard behind a wall ever had two hours: nothing has to have them now.
+TEST_F(Verify, WhatPassesHasNothingNegativeToSpare) {
+  const auto yard =
+      write("yard.geojson", R"({"type":"Feature","properties":{"name":"yard"},"geometry":{"type":"Polygon",
+      "coordinates":[[[-0.5,1.1],[0.5,1.1],[0.5,1.6],[-0.5,1.6],[-0.5,1.1]]]},"crs":null})");
+  const auto tower = write("tower.off",
+                           "OFF\n8 6 0\n-90 -2 0\n90 -2 0\n90 1 0\n-90 1 0\n-90 -2 90\n90 -2 90\n90 1 90\n-90 1 90\n"
+                           "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
+  const std::vector<std::string> words{"verify",     tower,           "--preset", "bre209",     "--areas", yard,
+                                       "--baseline", tower,           "--lat",    "51.5",       "--lon",   "0",
+                                       "--tz",       "Europe/London", "--date",   "2026-01-01", "--grid",  "0.25"};
+  const Ran ran = umbrage(words);
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("nothing has to pass; the best: 0:"), HasSubstr("(0.0 % before)"),
+                             Not(HasSubstr("to spare"))));
+  const Json json = Json::parse(run(words, {"--json"}).out);
+  EXPECT_FALSE(json.at("findings").at(0).contains("margin_hours"));
+}
+
 TEST_F(Verify, NamesInTablesAreNoFormulas) {
   const auto area = write("area.geojson", R"json({"type":"Feature","properties":{"name":"=HYPERLINK(\"http://a\")"},
       "geometry":{"type":"Polygon","coordinates":[[[-4,2],[4,2],[4,8],[-4,2]]]},"crs":null})json");
@@ -318,6 +351,7 @@ TEST_F(Verify, JapansSite) {
                           "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
   const Ran high = run({"verify", wide, "--preset", "japan-4-2.5", "--site", site}, tokyo);
   EXPECT_EQ(high.code, 1) << high.err;
+  EXPECT_THAT(high.out, HasSubstr("points on lines, which have no area, fail"));
   const auto elsewhere =
       write("else.geojson", R"({"type":"Polygon","crs":null,"coordinates":[[[50,50],[60,50],[60,60],[50,50]]]})");
   const Ran none = run({"verify", wide, "--preset", "japan-4-2.5", "--site", elsewhere}, tokyo);

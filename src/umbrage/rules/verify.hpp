@@ -64,7 +64,8 @@ struct Finding {
   std::optional<double> newShare;       ///< with mostNew: new shadow, of all hours that count
   double newAreaHours = 0.0;            ///< with mostNew: m2 x h
   std::optional<NewOutlines> outlines;  ///< what turned a pass of all receivers into a fail
-  /// Of the receiver that decides: when it had so much less (or more) sun, the finding would turn. With mostNew a share.
+  /// Of the receiver that decides: when it had so much less (or more) sun, the finding would turn. With mostNew a share. Infinite
+  /// where nothing has to pass since nothing did before (Requirement::former).
   double margin = 0.0;
   std::optional<std::size_t> deciding;  ///< of `receivers`
   std::vector<ReceiverResult> receivers;

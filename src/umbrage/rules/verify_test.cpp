@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <set>
 
 #include "umbrage/geo/projection.hpp"
@@ -141,6 +142,20 @@ TEST(Verify, theBestDayIsThatOfTheWholeRule) {
   EXPECT_EQ(best.receivers.at(*best.deciding).date, std::chrono::year(2026) / 1 / 10);
   EXPECT_EQ(best.formerShare, winter.formerShare);
   EXPECT_EQ(best.share, winter.share);
+}
+
+// Where nothing had enough before, nothing has to have now, and no receiver has anything to spare.
+TEST(Verify, whatWasNeverThereIsNotMissed) {
+  const scene::Scene wall = sceneOf({{{-400, -6, 0}, {400, -2, 60}}});
+  const auto garden = areaTargets({{"garden", rectangle({-10, 0}, {10, 24})}}, wall, 2.0, 0.0);
+  const auto v = verify(wall, &wall, *findRule("bre209"), *garden, {place(51.5, -0.1), kSolar, kDay});
+  ASSERT_TRUE(v);
+  const Finding& f = v->findings.at(0);
+  EXPECT_TRUE(f.passes);
+  EXPECT_EQ(f.share, 0.0);
+  EXPECT_EQ(f.wanted, 0.0);
+  EXPECT_EQ(f.margin, std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(v->nearThreshold);
 }
 
 TEST(Verify, nothingButSkyAndNoSunAtAll) {

@@ -1,6 +1,7 @@
 #include "umbrage/rules/detail/judge.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <string>
@@ -260,7 +261,9 @@ void weigh(const Requirement& requirement, const Panel& panel, std::vector<Recei
                        ? std::all_of(results.begin(), results.end(), [](const auto& r) { return r.passes; })
                        : finding.share >= finding.wanted - kRounding;
   finding.deciding = panel.deciding(results, finding.wanted);
-  finding.margin = results[*finding.deciding].margin;
+  // Where nothing has to pass, no receiver can turn it.
+  finding.margin =
+      finding.wanted > kRounding ? results[*finding.deciding].margin : std::numeric_limits<double>::infinity();
   finding.receivers = std::move(results);
 }
 
