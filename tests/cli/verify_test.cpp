@@ -183,6 +183,37 @@ TEST_F(Verify, WhatPassesHasNothingNegativeToSpare) {
   EXPECT_FALSE(json.at("findings").at(0).contains("margin_hours"));
 }
 
+TEST_F(Verify, NothingOfWhatIsGivenIsIgnored) {
+  const auto box = writeBox("box.off", 6), before = writeBox("before.off", 2);
+  const auto site =
+      write("site.geojson", R"({"type":"Polygon","crs":null,"coordinates":[[[-3,-3],[3,-3],[3,3],[-3,3],[-3,-3]]]})");
+  const auto refused = [&](const std::vector<std::string>& words, const char* says) {
+    const Ran ran = run(words, kBeijing);
+    EXPECT_EQ(ran.code, 2) << says;
+    EXPECT_THAT(ran.err, HasSubstr(says));
+  };
+  refused({"verify", box, "--preset", "china-dahan-2", "--points", points(), "--height", "2"}, "--height is for areas");
+  refused({"verify", box, "--preset", "japan-4-2.5", "--site", site, "--baseline", before}, "leave out --baseline");
+  refused({"envelope", before, "--inverse", "--preset", "china-dahan-2", "--points", points(), "--site", site,
+           "--baseline", before, "-o", file("v.obj")},
+          "leave out --baseline");
+  // On points and areas new shadow is told whatever the rule asks.
+  const Ran told =
+      run({"verify", box, "--preset", "china-dahan-2", "--points", points(), "--baseline", before}, kBeijing);
+  EXPECT_THAT(told.out, HasSubstr("New shadow on "));
+}
+
+TEST_F(Verify, AboveAllRoofsNothingCasts) {
+  const auto box = writeBox("box.off", 6);
+  const std::vector<std::string> london{"--lat", "51.5", "--lon", "0", "--date", "2026-03-21", "--tz", "Europe/London"};
+  const Ran high = run({"verify", box, "--preset", "bre209", "--areas", park(), "--plane", "6"}, london);
+  EXPECT_THAT(high.err, HasSubstr("nothing in the scene rises above 6"));
+  const Ran higher = run({"verify", box, "--preset", "bre209", "--areas", park(), "--height", "9"}, london);
+  EXPECT_THAT(higher.err, HasSubstr("receivers lie at height 9"));
+  const Ran below = run({"verify", box, "--preset", "bre209", "--areas", park(), "--plane", "5.9"}, london);
+  EXPECT_THAT(below.err, Not(HasSubstr("nothing in the scene")));
+}
+
 TEST_F(Verify, NamesInTablesAreNoFormulas) {
   const auto area = write("area.geojson", R"json({"type":"Feature","properties":{"name":"=HYPERLINK(\"http://a\")"},
       "geometry":{"type":"Polygon","coordinates":[[[-4,2],[4,2],[4,8],[-4,2]]]},"crs":null})json");
