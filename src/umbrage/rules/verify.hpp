@@ -52,7 +52,8 @@ struct NewOutlines {
 
 /// One requirement held against one group of receivers.
 /// 1. passes: the part `share` of the receivers passes and is at least `wanted`; with Requirement::mostNew: `newShare` is at most that.
-/// 2. Where an area may get no new shadow at all, it fails as well where the exact outlines show some; then `outlines` is it, and margin,
+/// 2. Where an area may get no new shadow at all, it fails as well where the exact outlines show some that
+/// reaches more than a millimetre into it for kShortestNew or longer; then `outlines` is it, and margin,
 ///    newShare and newAreaHours are theirs.
 struct Finding {
   std::size_t requirement = 0;  ///< of Rule::requirements

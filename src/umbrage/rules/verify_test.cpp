@@ -278,6 +278,33 @@ TEST(NewOutlines, eachAreaByItself) {
   EXPECT_TRUE(v.findings[1].passes);
 }
 
+// A tower's foot and a park's border are one line that both files have rounded; the shadow falls to the other side.
+TEST(NewOutlines, whatTouchesTheBorderCastsNothingOnIt) {
+  const auto turned = [](const Vec2& p, double angle) {
+    const Vec2 q(p.x * std::cos(angle) - p.y * std::sin(angle), p.x * std::sin(angle) + p.y * std::cos(angle));
+    return Vec2(std::round(q.x * 1e6), std::round(q.y * 1e6)) / 1e6;
+  };
+  const auto passes = [&](double angle, double depth) {
+    scene::Scene now = sceneOf({{{-17, -depth, 0}, {13, 12, 40}, "tower"}});
+    mesh::Mesh m = *now.meshes[0];
+    for (Vec3& p : m.positions) p = Vec3(turned(Vec2(p), angle), p.z);
+    now.meshes[0] = std::make_shared<const mesh::Mesh>(m);
+    outline::Region park;
+    outline::Ring ring;
+    for (const Vec2& p : {Vec2(-30, -20), Vec2(30, -20), Vec2(30, 0), Vec2(-30, 0)}) ring.push_back(turned(p, angle));
+    park.polygons.push_back({ring, {}}), park.area = 1200.0;
+    const auto targets = areaTargets({{"park", park}}, now, 1.0, 0.0);
+    const scene::Scene before = sceneOf({{{-30, 40, 0}, {30, 52, 15}, "house"}});
+    const auto v = verify(now, &before, *findRule("vancouver"), *targets, Strip().request);
+    EXPECT_TRUE(v);
+    return v && v->passes;
+  };
+  for (const double angle : {0.0, 0.1, -0.15, 0.2}) {
+    EXPECT_TRUE(passes(angle, 0.0)) << angle;
+    EXPECT_FALSE(passes(angle, 0.01)) << angle;  // it stands a centimetre within
+  }
+}
+
 TEST(NewOutlines, whatStoodBeforeIsNotNewByAnotherName) {
   const Strip strip;
   const auto targets = areaTargets(strip.areas, strip.before, 1.0, 0.0);
