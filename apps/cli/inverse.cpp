@@ -13,8 +13,6 @@
 namespace umbrage::cli {
 namespace {
 
-// Points are held against the rule hundreds of times: a coarser grid than of a verdict, where none is asked for.
-constexpr double kGrid = 4.0;
 constexpr double kMost = 100.0;
 
 bool isMap(const std::string& path) {
@@ -98,8 +96,7 @@ const std::vector<std::string>& inverseKinds() {
   return kinds;
 }
 
-Result<Outcome> inverseVolume(const InverseVolume& given, const Console& console) {
-  InverseVolume o = given;
+Result<Outcome> inverseVolume(const InverseVolume& o, const Console& console) {
   if (const auto fine = check(o); !fine) return tl::unexpected(fine.error());
   const auto rule = ruleOf(o.rule);
   if (!rule) return tl::unexpected(rule.error());
@@ -116,7 +113,6 @@ Result<Outcome> inverseVolume(const InverseVolume& given, const Console& console
   request.days = rules::makeSunDays();
   rules::InverseOptions options;
   options.cell = o.cell.value_or(0.0), options.most = o.most.value_or(kMost);
-  if (!o.rule.grid) o.rule.grid = kGrid / scene->metresPerUnit;
   std::optional<double> reach;
   if (rule->receivers == rules::ReceiverKind::site) reach = rules::shadowReach(options.most, *rule, request);
   const auto grounds = groundsOf(o.rule, *rule, *scene, request, reach);

@@ -1,5 +1,7 @@
 #include "rule_options.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "umbrage/rules/rule_file.hpp"
@@ -61,6 +63,11 @@ Result<Grounds> aroundSite(const RuleOptions& o, const rules::Rule& rule, const 
   return g;
 }
 
+bool usesBaseline(const rules::Rule& rule) {
+  return rules::needsBaseline(rule) ||
+         std::any_of(rule.requirements.begin(), rule.requirements.end(), [](const auto& r) { return r.former; });
+}
+
 }  // namespace
 
 Result<void> checkRule(const RuleOptions& o) {
@@ -84,7 +91,25 @@ Result<void> checkReceivers(const RuleOptions& o, const rules::Rule& rule, bool 
       {"--site", !o.site.empty() && !ownSite && (kind == Kind::points || (kind == Kind::areas && !o.areas.empty()))}};
   for (const auto& [option, given] : useless)
     if (given) return fail(ErrorCode::usage, fmt::format("{} looks at {}; not at {}", rule.name, wants, option));
+  if (o.height && kind == Kind::points)
+    return fail(ErrorCode::usage, fmt::format("{} looks at {}; --height is for areas and sites", rule.name, wants));
+  // Points and areas are told what is new on them whatever the rule; around a site, and while a volume grows, nothing is.
+  if (!o.baseline.empty() && (ownSite || kind == Kind::site) && !usesBaseline(rule))
+    return fail(
+        ErrorCode::usage,
+        fmt::format("{} does not ask what stood before, and nothing else here does; leave out --baseline", rule.name));
   return {};
+}
+
+std::optional<std::string> aboveAll(const rules::Rule& rule, const scene::Scene& scene, double height) {
+  const Box3 box = scene::bounds(scene, true);
+  if (rule.receivers == rules::ReceiverKind::points || box.empty()) return std::nullopt;
+  const double top = study::mapHeight(box.max, scene.up);
+  if (top > height) return std::nullopt;
+  return fmt::format(
+      "receivers lie at height {:g}, and nothing in the scene rises above {:g}: nothing can cast there (--plane, "
+      "--height)",
+      height, top);
 }
 
 Result<rules::Rule> ruleOf(const RuleOptions& o) {

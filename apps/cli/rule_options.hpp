@@ -21,6 +21,9 @@ void addRuleOptions(CLI::App& app, RuleOptions& options, bool required);
 /// Where the rule does not look. `ownSite`: the command has a use of its own for --site. Errors: usage, with what the rule wants.
 [[nodiscard]] Result<void> checkReceivers(const RuleOptions& options, const rules::Rule& rule, bool ownSite);
 
+/// What to warn of where no part that casts rises above the receivers at `height` (of the scene); nothing for rules of points.
+[[nodiscard]] std::optional<std::string> aboveAll(const rules::Rule& rule, const scene::Scene& scene, double height);
+
 /// The rule with the altitude or the country that was asked for.
 [[nodiscard]] Result<rules::Rule> ruleOf(const RuleOptions& options);
 

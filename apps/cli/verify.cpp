@@ -117,6 +117,7 @@ Result<Outcome> run(const VerifyOptions& o, const Console& console) {
   auto verdict = rules::verify(*scene, before, *rule, grounds->targets, report.request, console.progress());
   if (!verdict) return tl::unexpected(verdict.error());
   report.verdict = std::move(*verdict);
+  if (auto warning = aboveAll(*rule, *scene, grounds->height)) report.verdict.warnings.push_back(std::move(*warning));
   for (const std::string& warning : report.verdict.warnings) console.warn(warning);
   if (before != nullptr && rule->receivers != rules::ReceiverKind::site) {
     auto news = newsOf(o, *scene, *before, *grounds, report.verdict, report.request, console);

@@ -40,14 +40,20 @@ std::string findingText(const VerdictReport& r, const Finding& f) {
   const Requirement& requirement = requirementOf(r, f);
   std::string text = fmt::format("  {}: {}: {}\n", f.group, requirement.name, passText(f.passes));
   if (f.newShare)
-    return text + fmt::format("    {:.4f} % of {} is newly shaded ({}), at most {:g} %\n", 100.0 * *f.newShare,
-                              sunOfDays(r, requirement.anyOf.front()), newShadowText(r, f.newAreaHours),
-                              100.0 * *requirement.mostNew);
-  text += fmt::format("    {:.1f} % of {} receivers{} pass, {:.1f} % wanted", 100.0 * f.share, f.receivers.size(),
-                      r.targets.step > 0.0 ? " by area" : "", 100.0 * f.wanted);
-  if (f.formerShare) text += fmt::format(" ({:.1f} % before)", 100.0 * *f.formerShare);
-  text += fmt::format("\n    deciding, {} to spare: {}\n", duration(f.margin, true),
-                      receiverText(r, f, f.receivers[*f.deciding]));
+    return text +
+           fmt::format("    {} of {} is newly shaded ({}), at most {:g} %\n", newShareText(*f.newShare),
+                       sunOfDays(r, requirement.anyOf.front()), newShadowText(r, f.newAreaHours),
+                       100.0 * *requirement.mostNew) +
+           (f.outlines ? "    " + outlinesText(r, f) + "\n" : "");
+  text += fmt::format("    {} of {} receivers{} pass, {} wanted", percent(f.share), f.receivers.size(),
+                      r.targets.step > 0.0 ? " by area" : "", percent(f.wanted));
+  if (f.formerShare) text += fmt::format(" ({} before)", percent(*f.formerShare));
+  if (const std::string lines = failingLines(r, f); !lines.empty()) text += "; " + lines;
+  if (f.outlines) return text + "\n    " + outlinesText(r, f) + "\n";
+  text += fmt::format(
+      "\n    {}: {}\n",
+      std::isinf(f.margin) ? "nothing has to pass; the best" : "deciding, " + duration(f.margin, true) + " to spare",
+      receiverText(r, f, f.receivers[*f.deciding]));
   std::size_t failing = 0;
   for (const ReceiverResult& result : f.receivers) {
     if (result.passes || &result == &f.receivers[*f.deciding]) continue;
@@ -87,7 +93,9 @@ std::string switchesText(const VerdictReport& r) {
       std::string(v.nearThreshold ? "Near a threshold. W" : "W") + "ith one convention turned at a time:\n";
   for (const rules::SwitchOutcome& s : v.switches)
     text += fmt::format("  {:<12} {} instead of {}: {}{}\n", s.name, s.instead, s.taken, passText(s.passes),
-                        v.findings.front().newShare ? "" : fmt::format(", {} to spare", duration(s.margin, true)));
+                        v.findings.front().newShare || std::isinf(s.margin)
+                            ? ""
+                            : fmt::format(", {} to spare", duration(s.margin, true)));
   return text;
 }
 
@@ -121,16 +129,26 @@ Json receiverJson(const VerdictReport& r, const Finding& f, const ReceiverResult
   return json;
 }
 
+Json outlinesJson(const VerdictReport& r, const rules::NewOutlines& o) {
+  return {{"days", o.days},
+          {"area_hours", o.areaHours},
+          {"date", sun::dateText(o.date)},
+          {"area_hours_then", o.areaHoursThen},
+          {"times", spansJson(r, o.spans)}};
+}
+
 Json findingJson(const VerdictReport& r, const Finding& f) {
   Json json = {{"requirement", requirementOf(r, f).name}, {"group", f.group}, {"passes", f.passes}};
   if (f.newShare) {
     json["new_share"] = *f.newShare, json[r.targets.step > 0.0 ? "new_area_hours" : "new_hours"] = f.newAreaHours;
     json["at_most"] = *requirementOf(r, f).mostNew;
+    if (f.outlines) json["outlines"] = outlinesJson(r, *f.outlines);
     return json;
   }
   json["share"] = f.share, json["wanted_share"] = f.wanted;
   if (f.formerShare) json["former_share"] = *f.formerShare;
-  json["margin_hours"] = f.margin;
+  if (std::isfinite(f.margin)) json["margin_hours"] = f.margin;
+  if (f.outlines) json["outlines"] = outlinesJson(r, *f.outlines);
   json["deciding"] = receiverJson(r, f, f.receivers[*f.deciding]);
   // Grids are in the CSV and on the map.
   if (r.targets.step > 0.0)
@@ -281,8 +299,11 @@ Json verdictJson(const VerdictReport& r) {
                {"checked", v.rule.checked},     {"ledger", Json::object()}};
   for (const Finding& f : v.findings) json["findings"].push_back(findingJson(r, f));
   for (const rules::SwitchOutcome& s : v.switches)
-    json["switches"].push_back(
-        {{"name", s.name}, {"taken", s.taken}, {"instead", s.instead}, {"passes", s.passes}, {"margin", s.margin}});
+    json["switches"].push_back({{"name", s.name},
+                                {"taken", s.taken},
+                                {"instead", s.instead},
+                                {"passes", s.passes},
+                                {"margin", std::isfinite(s.margin) ? Json(s.margin) : Json()}});
   for (const DayNews& day : r.news) json["new_shadow"].push_back(newsJson(r, day));
   for (const study::LedgerLine& line : v.ledger) json["ledger"][line.subject] = line.text;
   return json;
@@ -307,6 +328,10 @@ std::string verdictCsv(const VerdictReport& r) {
       text +=
           fmt::format("{},{},,,,,,,,,{},,,,,,{:.10g},{:.10g}\n", csvText(f.group), csvText(requirementOf(r, f).name),
                       f.passes ? 1 : 0, *f.newShare, *requirementOf(r, f).mostNew);
+    else if (f.outlines)
+      text += fmt::format("{},{},,,,,,,,,0,{:.4f},0.0000,{:.4f},{},{},,\n", csvText(f.group),
+                          csvText(requirementOf(r, f).name), -f.margin, f.margin, sun::dateText(f.outlines->date),
+                          spansText(r, f.outlines->spans));
     for (const ReceiverResult& result : f.receivers) {
       const rules::Target& t = r.targets.targets[result.target];
       const Vec3 &p = t.receiver.position, &n = t.receiver.normal;

@@ -43,15 +43,17 @@ std::vector<report::DayPart> partsOf(const VerdictReport& r, std::chrono::year_m
 }
 
 std::string found(const VerdictReport& r, const Finding& f) {
+  if (f.outlines) return outlinesText(r, f);
   if (f.newShare)
-    return fmt::format("{:.4f} % of {} newly shaded ({})", 100.0 * *f.newShare,
+    return fmt::format("{} of {} newly shaded ({})", newShareText(*f.newShare),
                        sunOfDays(r, requirementOf(r, f).anyOf.front()), newShadowText(r, f.newAreaHours));
   if (f.receivers.size() == 1 && f.deciding) {
     const ReceiverResult& only = f.receivers[*f.deciding];
     return fmt::format("{} {}", duration(only.value), quantity(measureOf(r, f, only)));
   }
-  std::string text = fmt::format("{:.1f} % of {} receivers pass", 100.0 * f.share, f.receivers.size());
-  if (f.formerShare) text += fmt::format(" ({:.1f} % before)", 100.0 * *f.formerShare);
+  std::string text = fmt::format("{} of {} receivers pass", percent(f.share), f.receivers.size());
+  if (f.formerShare) text += fmt::format(" ({} before)", percent(*f.formerShare));
+  if (const std::string lines = failingLines(r, f); !lines.empty()) text += "; " + lines;
   return text;
 }
 
@@ -63,14 +65,14 @@ std::string asked(const VerdictReport& r, const Finding& f) {
     const double hours = std::chrono::duration<double, std::ratio<3600>>(m.threshold).count();
     text += fmt::format("{}{} {} {}", text.empty() ? "" : ", or ", comparison(m), duration(hours), quantity(m));
   }
-  if (f.receivers.size() > 1) text += fmt::format(", {:.1f} % of them", 100.0 * f.wanted);
+  if (f.receivers.size() > 1) text += fmt::format(", {} of them", percent(f.wanted));
   return text;
 }
 
 report::Criterion criterion(const VerdictReport& r, const Finding& f) {
   const std::string group = f.group.empty() ? "" : f.group + ": ";
   return {group + requirementOf(r, f).name, found(r, f), asked(r, f),
-          f.newShare ? std::string() : duration(f.margin, true), f.passes};
+          f.newShare || std::isinf(f.margin) ? std::string() : duration(f.margin, true), f.passes};
 }
 
 std::string verdictSentence(const VerdictReport& r) {
@@ -159,7 +161,8 @@ void addOtherwise(report::StudyPage& page, const VerdictReport& r) {
                                       : "One is turned at a time.";
   for (const rules::SwitchOutcome& s : v.switches)
     page.otherwise.push_back(
-        {s.name, s.taken, s.instead, v.findings.front().newShare ? std::string() : duration(s.margin, true), s.passes});
+        {s.name, s.taken, s.instead,
+         v.findings.front().newShare || std::isinf(s.margin) ? std::string() : duration(s.margin, true), s.passes});
 }
 
 std::vector<std::pair<std::string, std::string>> sourcesOf(const rules::Rule& rule) {

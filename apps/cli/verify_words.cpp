@@ -83,6 +83,36 @@ const rules::Measure& decidingMeasure(const rules::Verdict& verdict) {
   const rules::Deciding deciding = rules::decidingOf(verdict);
   return verdict.rule.requirements[verdict.findings[deciding.finding].requirement].anyOf[deciding.measure];
 }
+std::string percent(double share) {
+  constexpr int kMostDigits = 9;
+  std::string text;
+  for (int digits = 1; digits <= kMostDigits; ++digits) {
+    text = fmt::format("{:.{}f}", 100.0 * share, digits);
+    const double shown = std::stod(text);
+    if ((shown < 100.0 || share >= 1.0) && (shown > 0.0 || share <= 0.0)) break;
+  }
+  return text + " %";
+}
+std::string failingLines(const VerdictReport& r, const rules::Finding& f) {
+  std::size_t points = 0, failing = 0;
+  for (const rules::ReceiverResult& result : f.receivers) {
+    if (r.targets.targets[result.target].weight > 0.0) continue;
+    ++points, failing += result.passes ? 0 : 1;
+  }
+  return failing == 0 ? std::string()
+                      : fmt::format("{} of {} points on lines, which have no area, fail", failing, points);
+}
+std::string newShareText(double share) {
+  const std::string text = fmt::format("{:.4f}", 100.0 * share);
+  return (share > 0.0 && text == "0.0000" ? fmt::format("{:.2g}", 100.0 * share) : text) + " %";
+}
+std::string outlinesText(const VerdictReport& r, const rules::Finding& f) {
+  const rules::NewOutlines& o = *f.outlines;
+  return fmt::format(
+      "between the cells' middles the exact outlines show new shadow on {} {}, {:.4g} m2 h; most on {}, {:.4g} m2 h "
+      "[{}]",
+      o.days, o.days == 1 ? "day" : "days", o.areaHours, sun::dateText(o.date), o.areaHoursThen, spansText(r, o.spans));
+}
 const Vec3& placeOf(const VerdictReport& r, const rules::ReceiverResult& result) {
   return r.targets.targets[result.target].receiver.position;
 }

@@ -29,6 +29,14 @@ namespace umbrage::cli {
 [[nodiscard]] const rules::Requirement& requirementOf(const VerdictReport& report, const rules::Finding& finding);
 /// That of rules::decidingOf.
 [[nodiscard]] const rules::Measure& decidingMeasure(const rules::Verdict& verdict);
+/// A share with one digit, or as many as tell it from none and from all: "99.97 %".
+[[nodiscard]] std::string percent(double share);
+/// How many points on lines around a site fail: they have no area, so that no share tells of them. Empty where none does.
+[[nodiscard]] std::string failingLines(const VerdictReport& r, const rules::Finding& f);
+/// A share of new shadow; one that rounds to nothing and is not has more digits.
+[[nodiscard]] std::string newShareText(double share);
+/// The new shadow that no middle of a cell sees. REQUIRES: the finding has `outlines`.
+[[nodiscard]] std::string outlinesText(const VerdictReport& r, const rules::Finding& f);
 [[nodiscard]] const Vec3& placeOf(const VerdictReport& report, const rules::ReceiverResult& result);
 
 }  // namespace umbrage::cli

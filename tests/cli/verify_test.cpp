@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "program.hpp"
 
@@ -161,6 +163,98 @@ TEST_F(Verify, PlacesAreToldApart) {
   const auto small = write("mm.csv", "x,y,z,nx,ny,nz\n8502.7123,-0.1,1500,0,-1,0\n");
   const Ran ran = run({"verify", writeBox(), "--unit", "mm", "--preset", "china-dahan-2", "--points", small}, kBeijing);
   EXPECT_THAT(ran.out, HasSubstr(" at 8503,0,1500 [")) << ran.err;
+}
+
+// A strip of 0.4 m along the border is new shadow though it reaches no middle of a cell.
+TEST_F(Verify, NoNewShadowIsHeldByOutlines) {
+  const auto town = [&](const char* name, const char* wall) {
+    return write(name,
+                 std::string(R"({"type":"FeatureCollection","crs":null,"features":[)") + wall + R"({"type":"Feature",
+      "properties":{"name":"house","height":15},"geometry":{"type":"Polygon","coordinates":[[[-30,10],[30,10],[30,22],[-30,22],[-30,10]]]}}]})");
+  };
+  const auto now = town("now.geojson", R"({"type":"Feature","properties":{"name":"wall","height":4.68},
+    "geometry":{"type":"Polygon","coordinates":[[[-300,-40],[300,-40],[300,-25],[-300,-25],[-300,-40]]]}},)");
+  const auto before = town("before.geojson", "");
+  const auto park =
+      write("p.geojson", R"({"type":"Feature","crs":null,"properties":{"name":"park"},"geometry":{"type":"Polygon",
+      "coordinates":[[[-30,-20],[30,-20],[30,0],[-30,0],[-30,-20]]]}})");
+  const std::vector<std::string> words{
+      "verify", now,     "--preset", "vancouver", "--areas",           park,     "--baseline", before, "--lat",
+      "49.25",  "--lon", "-123.1",   "--tz",      "America/Vancouver", "--date", "2026-01-01"};
+  const Ran text = umbrage(words);
+  EXPECT_EQ(text.code, 1) << text.err;
+  EXPECT_THAT(text.out, AllOf(StartsWith("FAIL"), HasSubstr("exact outlines show new shadow on 3 days"),
+                              HasSubstr("most on 2026-09-22"), HasSubstr("New shadow on 2026-09-22")));
+  const Json json = Json::parse(run(words, {"--json"}).out);
+  EXPECT_EQ(json.at("findings").at(0).at("outlines").at("days"), 3);
+  EXPECT_EQ(run(words, {"-o", file("o.csv")}).code, 1);
+  EXPECT_THAT(read("o.csv"), HasSubstr("-6.0000,2026-09-22,10:00:00-16:00:00"));
+  EXPECT_EQ(run(words, {"-o", file("o.html")}).code, 1);
+  EXPECT_THAT(read("o.html"), HasSubstr("the exact outlines show new shadow"));
+}
+
+TEST_F(Verify, SharesTellNoneAndAllFromTheRest) {
+  Json rule = Json::parse(umbrage({"verify", "--print-preset", "bre209"}).out);
+  rule["requirements"][0].erase("or_former_times");
+  rule["requirements"][0]["share"] = 1;
+  const auto mine = write("mine.json", rule.dump());
+  const auto wide =
+      write("wide.geojson", R"({"type":"Feature","properties":{"name":"field"},"geometry":{"type":"Polygon",
+      "coordinates":[[[-60,-60],[60,-60],[60,60],[-60,60],[-60,-60]]]},"crs":null})");
+  const std::vector<std::string> london{"--lat", "51.5", "--lon", "0", "--date", "2026-03-21", "--tz", "Europe/London"};
+  const Ran few = run({"verify", writeBox("low.off", 0.2), "--preset", mine, "--areas", wide}, london);
+  EXPECT_EQ(few.code, 1) << few.err;
+  EXPECT_THAT(few.out, HasSubstr("99.97 % of 14400 receivers by area pass, 100.0 % wanted"));
+}
+
+// Nothing of a yard behind a wall ever had two hours: nothing has to have them now.
+TEST_F(Verify, WhatPassesHasNothingNegativeToSpare) {
+  const auto yard =
+      write("yard.geojson", R"({"type":"Feature","properties":{"name":"yard"},"geometry":{"type":"Polygon",
+      "coordinates":[[[-0.5,1.1],[0.5,1.1],[0.5,1.6],[-0.5,1.6],[-0.5,1.1]]]},"crs":null})");
+  const auto tower = write("tower.off",
+                           "OFF\n8 6 0\n-90 -2 0\n90 -2 0\n90 1 0\n-90 1 0\n-90 -2 90\n90 -2 90\n90 1 90\n-90 1 90\n"
+                           "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
+  const std::vector<std::string> words{"verify",     tower,           "--preset", "bre209",     "--areas", yard,
+                                       "--baseline", tower,           "--lat",    "51.5",       "--lon",   "0",
+                                       "--tz",       "Europe/London", "--date",   "2026-01-01", "--grid",  "0.25"};
+  const Ran ran = umbrage(words);
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("nothing has to pass; the best: 0:"), HasSubstr("(0.0 % before)"),
+                             Not(HasSubstr("to spare"))));
+  const Json json = Json::parse(run(words, {"--json"}).out);
+  EXPECT_FALSE(json.at("findings").at(0).contains("margin_hours"));
+}
+
+TEST_F(Verify, NothingOfWhatIsGivenIsIgnored) {
+  const auto box = writeBox("box.off", 6), before = writeBox("before.off", 2);
+  const auto site =
+      write("site.geojson", R"({"type":"Polygon","crs":null,"coordinates":[[[-3,-3],[3,-3],[3,3],[-3,3],[-3,-3]]]})");
+  const auto refused = [&](const std::vector<std::string>& words, const char* says) {
+    const Ran ran = run(words, kBeijing);
+    EXPECT_EQ(ran.code, 2) << says;
+    EXPECT_THAT(ran.err, HasSubstr(says));
+  };
+  refused({"verify", box, "--preset", "china-dahan-2", "--points", points(), "--height", "2"}, "--height is for areas");
+  refused({"verify", box, "--preset", "japan-4-2.5", "--site", site, "--baseline", before}, "leave out --baseline");
+  refused({"envelope", before, "--inverse", "--preset", "china-dahan-2", "--points", points(), "--site", site,
+           "--baseline", before, "-o", file("v.obj")},
+          "leave out --baseline");
+  // On points and areas new shadow is told whatever the rule asks.
+  const Ran told =
+      run({"verify", box, "--preset", "china-dahan-2", "--points", points(), "--baseline", before}, kBeijing);
+  EXPECT_THAT(told.out, HasSubstr("New shadow on "));
+}
+
+TEST_F(Verify, AboveAllRoofsNothingCasts) {
+  const auto box = writeBox("box.off", 6);
+  const std::vector<std::string> london{"--lat", "51.5", "--lon", "0", "--date", "2026-03-21", "--tz", "Europe/London"};
+  const Ran high = run({"verify", box, "--preset", "bre209", "--areas", park(), "--plane", "6"}, london);
+  EXPECT_THAT(high.err, HasSubstr("nothing in the scene rises above 6"));
+  const Ran higher = run({"verify", box, "--preset", "bre209", "--areas", park(), "--height", "9"}, london);
+  EXPECT_THAT(higher.err, HasSubstr("receivers lie at height 9"));
+  const Ran below = run({"verify", box, "--preset", "bre209", "--areas", park(), "--plane", "5.9"}, london);
+  EXPECT_THAT(below.err, Not(HasSubstr("nothing in the scene")));
 }
 
 TEST_F(Verify, NamesInTablesAreNoFormulas) {
@@ -349,11 +443,37 @@ TEST_F(Verify, JapansSite) {
                           "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
   const Ran high = run({"verify", wide, "--preset", "japan-4-2.5", "--site", site}, tokyo);
   EXPECT_EQ(high.code, 1) << high.err;
+  EXPECT_THAT(high.out, HasSubstr("points on lines, which have no area, fail"));
   const auto elsewhere =
       write("else.geojson", R"({"type":"Polygon","crs":null,"coordinates":[[[50,50],[60,50],[60,60],[50,50]]]})");
   const Ran none = run({"verify", wide, "--preset", "japan-4-2.5", "--site", elsewhere}, tokyo);
   EXPECT_EQ(none.code, 2);
   EXPECT_THAT(none.err, HasSubstr("no part that casts"));
+}
+
+// With the same options, and no others, the volume that is written passes; a hundredth more does not.
+TEST_F(Verify, TheTallestVolumePassesBySameOptions) {
+  const auto site =
+      write("site.geojson",
+            R"({"type":"Polygon","crs":null,"coordinates":[[[-15,-45],[15,-45],[15,-20],[-15,-20],[-15,-45]]]})");
+  const std::vector<std::string> asked{"--preset", "japan-3-2", "--site", site,         "--lat", "35.68",
+                                       "--lon",    "139.7",     "--date", "2026-01-01", "--tz",  "Asia/Tokyo"};
+  const Ran grown = run(
+      {"envelope", writeBox("house.off", 10), "--inverse", "--cell", "10", "--max-height", "60", "-o", file("inv.obj")},
+      asked);
+  ASSERT_EQ(grown.code, 0) << grown.err;
+  const Ran passes = run({"verify", file("inv.obj")}, asked);
+  EXPECT_EQ(passes.code, 0) << passes.out << passes.err;
+  std::istringstream lines(read("inv.obj"));
+  std::string raised;
+  for (std::string line; std::getline(lines, line);) {
+    double x = 0.0, y = 0.0, z = 0.0;
+    if (std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &z) == 3)
+      line = "v " + std::to_string(x) + " " + std::to_string(1.01 * y) + " " + std::to_string(z);
+    raised += line + "\n";
+  }
+  const Ran fails = run({"verify", write("raised.obj", raised)}, asked);
+  EXPECT_EQ(fails.code, 1) << fails.out << fails.err;
 }
 
 TEST_F(Verify, TheTallestVolume) {

@@ -8,6 +8,7 @@
 
 #include "umbrage/outline/combine.hpp"
 #include "umbrage/rules/detail/judge.hpp"
+#include "umbrage/rules/detail/outlines.hpp"
 #include "umbrage/study/georeference.hpp"
 
 namespace umbrage::rules {
@@ -19,6 +20,7 @@ using outline::Region;
 
 constexpr double kFine = 1e-3;  // of a height: how closely its limit is found
 constexpr int kTries = 4;
+constexpr double kWhole = 1e-6;     // of a site: what it may be longer than whole cells
 constexpr double kSmallest = 1e-6;  // of a cell: pieces of the site below are left out
 
 // A piece of a plan between two parallels: a convex quadrangle (or triangle).
@@ -85,8 +87,8 @@ Result<std::vector<Column>> columnsOf(const Area& site, const scene::Scene& scen
   Vec2 low(1e300), high(-1e300);
   for (const outline::Polygon& polygon : site.region.polygons)
     for (const Vec2& p : polygon.outer) low = glm::min(low, p), high = glm::max(high, p);
-  // Around the middle, so that a site of whole cells is cut into whole cells.
-  const Vec2 count = glm::max(glm::ceil((high - low) / cell - 1e-9), Vec2(1.0));
+  // Around the middle, so that a site of whole cells is cut into whole cells, in whatever unit its corners were rounded.
+  const Vec2 count = glm::max(glm::ceil((high - low) / cell * (1.0 - kWhole)), Vec2(1.0));
   if (count.x * count.y > 64.0 * double(kMostColumns))
     return fail(ErrorCode::usage,
                 fmt::format("a site this large has too many columns of {:g} m; take larger ones", cell * unit));
@@ -162,9 +164,13 @@ study::SunHours bothLit(const study::SunHours& a, const study::SunHours& b) {
 
 class Grower {
  public:
-  Grower(const scene::Scene& frame, const Rule& rule, const TargetSet& targets, const VerifyRequest& request,
-         const InverseOptions& options, Lights standing, std::vector<Column> columns, const ProgressSink& progress)
-      : rule_(rule),
+  /// `stands`: what casts beside the columns.
+  Grower(const scene::Scene& stands, const scene::Scene* baseline, const Rule& rule, const TargetSet& targets,
+         const VerifyRequest& request, const InverseOptions& options, Lights standing, std::vector<Column> columns,
+         const ProgressSink& progress)
+      : stands_(stands),
+        baseline_(baseline),
+        rule_(rule),
         targets_(targets),
         request_(request),
         options_(options),
@@ -172,7 +178,7 @@ class Grower {
         standing_(std::move(standing.now)),
         columns_(std::move(columns)),
         progress_(progress),
-        frame_(frame) {
+        frame_(stands) {
     frame_.instances.clear(), frame_.meshes.clear();
   }
 
@@ -259,11 +265,17 @@ class Grower {
       if (!lit) return lit;
       return bothLit(**standing, *lit);
     };
-    const auto findings = detail::judge(rule_, {now, before_}, targets_, conventions_, {});
+    auto findings = detail::judge(rule_, {now, before_}, targets_, conventions_, {});
     if (!findings) return tl::unexpected(findings.error());
+    if (baseline_ == nullptr || !detail::allPass(*findings)) return detail::allPass(*findings);
+    const auto held = detail::holdOutlines(withColumns(stands_, columns, options_.base), *baseline_, rule_, targets_,
+                                           conventions_, {}, *findings);
+    if (!held) return tl::unexpected(held.error());
     return detail::allPass(*findings);
   }
 
+  const scene::Scene& stands_;
+  const scene::Scene* baseline_;
   const Rule& rule_;
   const TargetSet& targets_;
   const VerifyRequest& request_;
@@ -299,7 +311,7 @@ Result<InverseEnvelope> inverseEnvelope(const scene::Scene& scene, const scene::
     if (!hours) return tl::unexpected(hours.error());
     *light = detail::sunOf(std::make_shared<const study::ExactHours>(std::move(*hours)));
   }
-  Grower grower(scene, rule, targets, request, options, std::move(lights), std::move(*columns), progress);
+  Grower grower(stands, baseline, rule, targets, request, options, std::move(lights), std::move(*columns), progress);
   if (const auto grown = grower.run(); !grown) return tl::unexpected(grown.error());
   InverseEnvelope out;
   out.trials = grower.trials();

@@ -129,6 +129,27 @@ TEST(InverseEnvelope, whatDoesNotMatterGrowsToTheTop) {
   EXPECT_NEAR(found->volume, 3600.0, 1e-3);
 }
 
+// Corners in feet are not whole cells of metres to the last digit.
+TEST(InverseEnvelope, feetAreCutAsMetresAre) {
+  const VerifyRequest request{place(39.9, 116.4), *sun::parseZone("Asia/Shanghai"), kDay, Sensitivity::never};
+  study::ReceiverSet windows;
+  windows.receivers = {{{0, 0, 1.5}, {0, -1, 0}}};
+  InverseOptions options;
+  options.cell = 5.0, options.most = 10.0;
+  for (const double foot : {1.0, 0.3048, 1200.0 / 3937.0}) {
+    scene::Scene scene = sceneOf({});
+    scene.metresPerUnit = foot;
+    // North of the window; to ten digits, as files have them.
+    const auto rounded = [&](double metres) { return std::round(metres / foot * 1e7) / 1e7; };
+    const Area site{"site", rectangle({rounded(-15), rounded(20)}, {rounded(15), rounded(45)})};
+    const auto found =
+        inverseEnvelope(scene, nullptr, *findRule("china-dahan-2"), pointTargets(windows), site, request, options);
+    ASSERT_TRUE(found) << found.error().text();
+    EXPECT_EQ(found->columns.size(), 30u) << foot;
+    EXPECT_NEAR(found->volume, 7500.0, 0.1) << foot;
+  }
+}
+
 TEST(InverseEnvelope, refusals) {
   const VerifyRequest request{place(39.9, 116.4), *sun::parseZone("Asia/Shanghai"), kDay, Sensitivity::never};
   study::ReceiverSet windows;

@@ -148,12 +148,13 @@ Spans highEnough(const study::SunCourse& course, const NetNewOptions& options) {
   return detail::both(options.times, detail::countingTimes(course, options.leastElevation));
 }
 
-AreaNews newsOf(const std::string& name, double size, const Ground& ground, const Spans& times, double square) {
+AreaNews newsOf(const std::string& name, double size, const Ground& ground, const Spans& times, double square,
+                bool byBuilding) {
   AreaNews news{name, size, 0.0, {}, {}};
   const AreaAt all = [&](sun::Instant t) { return ground.areaAt(t); };
   news.all = visitsOf("", all, times, square);
   news.areaHours = integral([&](sun::Instant t) { return all(t) * square; }, news.all);
-  if (news.all.empty()) return news;
+  if (news.all.empty() || !byBuilding) return news;
   if (ground.added().size() == 1) {
     news.visits = news.all;
     for (Visit& visit : news.visits) visit.building = ground.added().front().name;
@@ -242,9 +243,9 @@ std::vector<std::chrono::year_month_day> newsDates(const Verdict& verdict, const
   for (const Finding& f : verdict.findings) {
     if (!f.deciding || f.requirement != requirement || chosen.size() == kMostNewsDays) continue;
     const ReceiverResult& r = f.receivers[*f.deciding];
-    if (r.measure == deciding.measure) chosen.insert(r.date);
+    if (r.measure == deciding.measure) chosen.insert(f.outlines ? f.outlines->date : r.date);
   }
-  if (!deciding.date)
+  if (verdict.rule.requirements[requirement].mostNew)
     for (const Angle longitude : {Angle{}, Angle::degrees(90), Angle::degrees(180), Angle::degrees(270)})
       chosen.insert(nearestTo(
           sun::clockAt(request.zone, request.place, detail::instantOfLongitude(longitude, request.date.year()))
@@ -275,14 +276,14 @@ Result<NetNew> netNew(const scene::Scene& proposal, const scene::Scene& baseline
   const Ground everywhere(added, standing, course, proposal.northOffset, within);
   for (const sun::Instant at : options.moments)
     if (course.towards(at).z > 0.0) out.moments.push_back(momentOf(at, everywhere));
-  if (options.areas.empty()) out.areas.push_back(newsOf("plane", 0.0, everywhere, times, square));
+  if (options.areas.empty()) out.areas.push_back(newsOf("plane", 0.0, everywhere, times, square, options.byBuilding));
   for (std::size_t i = 0; i < options.areas.size(); ++i) {
     if (!reportProgress(progress, double(i) / double(options.areas.size()), "new shadow"))
       return fail(ErrorCode::cancelled, "cancelled");
     const Area& area = options.areas[i];
     Ground ground(added, standing, course, proposal.northOffset, area.region);
     ground.cutIntoPieces();
-    out.areas.push_back(newsOf(area.name, area.region.area * square, ground, times, square));
+    out.areas.push_back(newsOf(area.name, area.region.area * square, ground, times, square, options.byBuilding));
   }
   return out;
 }

@@ -47,6 +47,7 @@ struct NetNewOptions {
   study::SunModel sun;
   /// The sun must be so high: at the horizon shadows have no end.
   Angle leastElevation = Angle::degrees(0.5);
+  bool byBuilding = true;  ///< false: `visits` stay empty, which saves most of the time
 };
 
 /// The difference of two scenes' shadows on a horizontal plane. Buildings are outline::castersOf's; one is added where the baseline has none of
@@ -68,7 +69,8 @@ struct NetNewOptions {
                                                         const ProgressSink& progress = {});
 
 /// The days worth telling of a verdict, those of the measure that decides it (decidingOf), ascending: all where they are few, else those that decide
-/// for an area by it; of shares of new shadow, which no day decides, those nearest to equinoxes and solstices. At most kMostNewsDays.
+/// for an area by it; of shares of new shadow, which no day decides, those nearest to equinoxes and solstices, and the day with most where only
+/// outlines show any. At most kMostNewsDays, and one.
 inline constexpr std::size_t kMostNewsDays = 4;
 [[nodiscard]] std::vector<std::chrono::year_month_day> newsDates(const Verdict& verdict, const VerifyRequest& request);
 

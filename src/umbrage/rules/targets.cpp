@@ -39,7 +39,8 @@ struct Middles {
   [[nodiscard]] Vec2 at(double i, double j) const { return origin + step * Vec2(i + 0.5, j + 0.5); }
 };
 Middles middlesOver(const PlanBox& box, double step) {
-  const Vec2 count = glm::max(glm::ceil((box.max - box.min) / step - 1e-9), Vec2(1.0));
+  constexpr double kWhole = 1e-6;  // what a box may be longer than whole cells, as corners are rounded in other units
+  const Vec2 count = glm::max(glm::ceil((box.max - box.min) / step * (1.0 - kWhole)), Vec2(1.0));
   return {count, 0.5 * (box.min + box.max) - 0.5 * step * count, step};
 }
 
@@ -219,7 +220,7 @@ Result<TargetSet> areaTargets(const std::vector<Area>& areas, const scene::Scene
   }
   if (count > double(kMostTargets)) return tooMany(count, kLargerSteps);
   TargetSet out;
-  out.step = step;
+  out.step = step, out.areas = areas, out.height = height;
   const double square = scene.metresPerUnit * scene.metresPerUnit;
   for (const Area& area : areas) {
     std::vector<Vec2> points = middlesWithin(area.region, step);
@@ -244,7 +245,9 @@ Result<TargetSet> siteTargets(const Area& site, const Rule& rule, const scene::S
   const double nearest = *beginnings.begin();
   const std::vector<Line> lines = linesAround(site.region, beginnings, unit);
   PlanBox box = planBox(site.region);
-  box.min -= grid.reach / unit, box.max += grid.reach / unit;
+  // Whole steps, so that a shorter reach has some of the points of a longer one, and no others.
+  const double reach = std::ceil(grid.reach / grid.step) * grid.step / unit;
+  box.min -= reach, box.max += reach;
   if (const auto fits = checkSiteCount(lines, box, grid, unit); !fits) return tl::unexpected(fits.error());
   TargetSet out;
   out.groups = {site.name};

@@ -35,6 +35,10 @@ struct TargetSet {
   std::vector<std::string> groups;  ///< what is judged by itself: the open spaces; one for points
   double step = 0.0;                ///< of grids, in the scene's unit; 0: points
   std::string described;            ///< for the ledger
+  /// Whose cells these are, one a group, and the height of their plane in the scene's unit; empty for points and around sites. Where no new shadow
+  /// at all may lie on them their outlines are asked too.
+  std::vector<Area> areas;
+  double height = 0.0;
 };
 
 /// More receivers than these, some 250 bytes each with what is found at them, are refused before any memory is used.
@@ -55,7 +59,7 @@ struct SiteGrid {
   double reach = 0.0;   ///< metres from the site within which points are wanted
 };
 /// Points on the lines around a site at which the rule's bands begin, and on a grid beyond the nearest of them; of a band without a beginning, and of
-/// a requirement without a band, from the site's border on.
+/// a requirement without a band, from the site's border on. Of a shorter reach they are some of those of a longer one.
 /// REQUIRES: along > 0, step > 0. Errors: usage (the site is empty, the rule looks at no site, more points than kMostTargets).
 [[nodiscard]] Result<TargetSet> siteTargets(const Area& site, const Rule& rule, const scene::Scene& scene,
                                             const SiteGrid& grid);

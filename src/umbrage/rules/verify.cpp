@@ -7,6 +7,7 @@
 
 #include "umbrage/base/check.hpp"
 #include "umbrage/rules/detail/judge.hpp"
+#include "umbrage/rules/detail/outlines.hpp"
 #include "umbrage/study/georeference.hpp"
 #include "umbrage/study/ledger.hpp"
 
@@ -84,21 +85,41 @@ double leastMargin(const std::vector<Finding>& findings) {
 bool isNear(const Rule& rule, const Finding& finding, const VerifyRequest& request) {
   const auto& limit = rule.requirements[finding.requirement].mostNew;
   if (limit) return *limit > 0.0 && std::abs(finding.margin) <= kNearShare * *limit;
+  if (finding.outlines) return false;
   // No new shadow at all is what most receivers have, and nothing near it.
   const ReceiverResult& r = finding.receivers[*finding.deciding];
   const bool none = r.threshold == 0.0 && r.value == 0.0;
   return !none && std::abs(finding.margin) <= detail::hoursOf(request.near);
 }
 
-Result<std::vector<SwitchOutcome>> outcomes(const Rule& rule, const detail::Lights& lights, const TargetSet& targets,
-                                            const VerifyRequest& request, const Conventions& taken,
-                                            const ProgressSink& progress) {
+/// What is held against a rule, by any conventions.
+struct Subject {
+  const scene::Scene& scene;
+  const scene::Scene* baseline;
+  const Rule& rule;
+  const TargetSet& targets;
+  const detail::Lights& lights;
+};
+
+Result<std::vector<Finding>> findingsOf(const Subject& s, const Conventions& conventions,
+                                        const ProgressSink& progress) {
+  auto findings = detail::judge(s.rule, s.lights, s.targets, conventions, progress);
+  if (!findings || s.baseline == nullptr) return findings;
+  if (const auto held = detail::holdOutlines(s.scene, *s.baseline, s.rule, s.targets, conventions, progress, *findings);
+      !held)
+    return tl::unexpected(held.error());
+  return findings;
+}
+
+Result<std::vector<SwitchOutcome>> outcomes(const Subject& subject, const VerifyRequest& request,
+                                            const Conventions& taken, const ProgressSink& progress) {
+  const Rule& rule = subject.rule;
   std::vector<SwitchOutcome> all;
   for (const Switch& one : kSwitches) {
     if (one.turn == kSwitches[0].turn && !readsClock(rule)) continue;
     Conventions turned = detail::conventionsOf(rule, request);
     one.turn(turned);
-    const auto findings = detail::judge(rule, lights, targets, turned, progress);
+    const auto findings = findingsOf(subject, turned, progress);
     if (!findings) return tl::unexpected(findings.error());
     all.push_back(
         {one.name, one.text(rule, taken), one.text(rule, turned), detail::allPass(*findings), leastMargin(*findings)});
@@ -295,7 +316,8 @@ Result<Verdict> verify(const scene::Scene& scene, const scene::Scene* baseline, 
   }
   const Conventions conventions = detail::conventionsOf(rule, request);
   if (const auto counts = checkCounts(rule, conventions); !counts) return tl::unexpected(counts.error());
-  auto findings = detail::judge(rule, lights, targets, conventions, progress);
+  const Subject subject{scene, baseline, rule, targets, lights};
+  auto findings = findingsOf(subject, conventions, progress);
   if (!findings) return tl::unexpected(findings.error());
   if (findings->empty()) return fail(ErrorCode::usage, fmt::format("no receiver lies where {} looks", rule.name));
   Verdict verdict;
@@ -306,7 +328,7 @@ Result<Verdict> verify(const scene::Scene& scene, const scene::Scene* baseline, 
                                       [&](const Finding& f) { return isNear(rule, f, request); });
   if (request.sensitivity == Sensitivity::always ||
       (request.sensitivity == Sensitivity::nearThreshold && verdict.nearThreshold)) {
-    auto switches = outcomes(rule, lights, targets, request, conventions, progress);
+    auto switches = outcomes(subject, request, conventions, progress);
     if (!switches) return tl::unexpected(switches.error());
     verdict.switches = std::move(*switches);
   }
@@ -323,6 +345,10 @@ Deciding decidingOf(const Verdict& verdict) {
       verdict.findings.begin(), verdict.findings.end(),
       [&](const Finding& a, const Finding& b) { return a.passes != b.passes ? !a.passes : marginOf(a) < marginOf(b); });
   Deciding deciding{static_cast<std::size_t>(first - verdict.findings.begin()), 0, std::nullopt};
+  if (first->outlines) {
+    deciding.date = first->outlines->date;
+    return deciding;
+  }
   if (!first->deciding) return deciding;
   const ReceiverResult& receiver = first->receivers[*first->deciding];
   deciding.measure = receiver.measure, deciding.date = receiver.date;

@@ -41,18 +41,32 @@ struct ReceiverResult {
   std::vector<study::TimeSpan> spans;  ///< of that day: sun, or shadow where the rule counts shadow
 };
 
+/// New shadow on an area by its exact outlines (netNew), where the middles of the area's cells see none of it.
+struct NewOutlines {
+  std::size_t days = 0;                ///< of the rule's, with such shadow
+  double areaHours = 0.0;              ///< on all of them, m2 x h
+  std::chrono::year_month_day date{};  ///< that with most of it
+  double areaHoursThen = 0.0;          ///< on it
+  std::vector<study::TimeSpan> spans;  ///< of it
+};
+
 /// One requirement held against one group of receivers.
 /// 1. passes: the part `share` of the receivers passes and is at least `wanted`; with Requirement::mostNew: `newShare` is at most that.
+/// 2. Where an area may get no new shadow at all, it fails as well where the exact outlines show some that
+/// reaches more than a millimetre into it for kShortestNew or longer; then `outlines` is it, and margin,
+///    newShare and newAreaHours are theirs.
 struct Finding {
   std::size_t requirement = 0;  ///< of Rule::requirements
   std::size_t groupIndex = 0;   ///< of TargetSet::groups
   std::string group;            ///< its name; several may have one
   bool passes = false;
-  double share = 0.0, wanted = 1.0;   ///< of the receivers, by area
-  std::optional<double> formerShare;  ///< that passes in the baseline
-  std::optional<double> newShare;     ///< with mostNew: new shadow, of all hours that count
-  double newAreaHours = 0.0;          ///< with mostNew: m2 x h; h where receivers are points
-  /// Of the receiver that decides: when it had so much less (or more) sun, the finding would turn. With mostNew a share.
+  double share = 0.0, wanted = 1.0;     ///< of the receivers, by area
+  std::optional<double> formerShare;    ///< that passes in the baseline
+  std::optional<double> newShare;       ///< with mostNew: new shadow, of all hours that count
+  double newAreaHours = 0.0;            ///< with mostNew: m2 x h; h where receivers are points
+  std::optional<NewOutlines> outlines;  ///< what turned a pass of all receivers into a fail
+  /// Of the receiver that decides: when it had so much less (or more) sun, the finding would turn. With mostNew a share. Infinite
+  /// where nothing has to pass since nothing did before (Requirement::former).
   double margin = 0.0;
   std::optional<std::size_t> deciding;  ///< of `receivers`
   std::vector<ReceiverResult> receivers;

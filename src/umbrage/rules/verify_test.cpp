@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <set>
 
 #include "umbrage/geo/projection.hpp"
@@ -175,6 +176,20 @@ TEST(Verify, theBestDayIsThatOfTheWholeRule) {
   EXPECT_EQ(best.share, winter.share);
 }
 
+// Where nothing had enough before, nothing has to have now, and no receiver has anything to spare.
+TEST(Verify, whatWasNeverThereIsNotMissed) {
+  const scene::Scene wall = sceneOf({{{-400, -6, 0}, {400, -2, 60}}});
+  const auto garden = areaTargets({{"garden", rectangle({-10, 0}, {10, 24})}}, wall, 2.0, 0.0);
+  const auto v = verify(wall, &wall, *findRule("bre209"), *garden, {place(51.5, -0.1), kSolar, kDay});
+  ASSERT_TRUE(v);
+  const Finding& f = v->findings.at(0);
+  EXPECT_TRUE(f.passes);
+  EXPECT_EQ(f.share, 0.0);
+  EXPECT_EQ(f.wanted, 0.0);
+  EXPECT_EQ(f.margin, std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(v->nearThreshold);
+}
+
 TEST(Verify, nothingButSkyAndNoSunAtAll) {
   const scene::Scene empty = sceneOf({});
   const auto open = verify(empty, nullptr, *findRule("china-dahan-2"), window(), {kBeijing, kSolar, kDay});
@@ -226,6 +241,117 @@ TEST(Verify, sameWhateverTheAxesAndUnits) {
   EXPECT_NEAR(v->findings[0].receivers[0].value, plain.findings[0].receivers[0].value, 2.0 / 3600);
 }
 
+// A strip along a park's border that reaches no middle of a cell of a metre.
+struct Strip {
+  scene::Scene before = sceneOf({{{-30, 10, 0}, {30, 22, 15}, "house"}});
+  std::vector<Area> areas{{"park", rectangle({-30, -20}, {30, 0})}};
+  VerifyRequest request{place(49.25, -123.1), *sun::parseZone("America/Vancouver"), kDay};
+  [[nodiscard]] Verdict verdictOf(const Rule& rule, double wall, double step = 1.0) const {
+    const auto now = sceneOf({{{-30, 10, 0}, {30, 22, 15}, "house"}, {{-300, -40, 0}, {300, -25, wall}, "wall"}});
+    const auto targets = areaTargets(areas, now, step, 0.0);
+    const auto v = verify(now, &before, rule, *targets, request);
+    EXPECT_TRUE(v) << (v ? "" : v.error().text());
+    return v ? *v : Verdict{};
+  }
+};
+
+TEST(NewOutlines, noNewShadowMeansNone) {
+  const Strip strip;
+  const Verdict v = strip.verdictOf(*findRule("vancouver"), 4.68);
+  const Finding& f = v.findings.at(0);
+  EXPECT_EQ(f.share, 1.0);  // no middle sees it
+  EXPECT_FALSE(v.passes);
+  ASSERT_TRUE(f.outlines);
+  // The shadow of a long wall is its height times cot of the height of the sun, towards the north: by hand, day by day.
+  double all = 0.0, most = 0.0;
+  std::size_t days = 0;
+  for (const auto& date : datesOf(v.rule.requirements[0].anyOf[0], strip.request)) {
+    double sum = 0.0;
+    const auto ten = at(strip.request.zone, strip.request.place, date, 10h);
+    constexpr auto kStep = 10s;
+    for (sun::Instant t = ten; t < ten + 6h; t += kStep) {
+      const auto p = sun::sunPosition(strip.request.place, t + kStep / 2);
+      const double north = -std::cos(p.azimuth.radians()) / std::tan(p.elevation.radians()) * 4.68;
+      sum += 60.0 * std::max(0.0, north - 5.0) * detail::hoursOf(kStep);
+    }
+    all += sum, most = std::max(most, sum), days += sum > 0.0 ? 1 : 0;
+  }
+  EXPECT_EQ(f.outlines->days, days);
+  EXPECT_NEAR(f.outlines->areaHours, all, 1e-3 * all);
+  EXPECT_NEAR(f.outlines->areaHoursThen, most, 1e-3 * most);
+  EXPECT_LT(f.margin, 0.0);
+  EXPECT_EQ(decidingOf(v).date, f.outlines->date);
+  // As much as touches the border passes, however coarse the grid; any more does not.
+  EXPECT_TRUE(strip.verdictOf(*findRule("vancouver"), 4.0).passes);
+  EXPECT_FALSE(strip.verdictOf(*findRule("vancouver"), 4.68, 20.0).passes);
+}
+
+TEST(NewOutlines, ofSharesOfAYearTheyAreTheShare) {
+  const Strip strip;
+  Rule rule = *findRule("san-francisco-0");
+  rule.requirements[0].anyOf[0].days = findRule("vancouver")->requirements[0].anyOf[0].days;
+  rule.requirements[0].anyOf[0].window = findRule("vancouver")->requirements[0].anyOf[0].window;
+  const Finding f = strip.verdictOf(rule, 4.68).findings.at(0);
+  EXPECT_FALSE(f.passes);
+  ASSERT_TRUE(f.outlines);
+  EXPECT_EQ(f.newAreaHours, f.outlines->areaHours);
+  EXPECT_NEAR(*f.newShare, f.newAreaHours / (1200.0 * 6.0 * 28.0), 1e-6);
+  // A limit above none is one of the middles, as before.
+  rule.requirements[0].mostNew = 0.001;
+  EXPECT_FALSE(strip.verdictOf(rule, 4.68).findings.at(0).outlines);
+}
+
+TEST(NewOutlines, eachAreaByItself) {
+  Strip strip;
+  strip.areas = {{"south", rectangle({-30, -20}, {30, -10})}, {"north", rectangle({-30, -10}, {30, 0})}};
+  const Verdict v = strip.verdictOf(*findRule("vancouver"), 4.68);
+  ASSERT_EQ(v.findings.size(), 2u);
+  EXPECT_FALSE(v.findings[0].passes);
+  EXPECT_TRUE(v.findings[1].passes);
+}
+
+// A tower's foot and a park's border are one line that both files have rounded; the shadow falls to the other side.
+TEST(NewOutlines, whatTouchesTheBorderCastsNothingOnIt) {
+  const auto turned = [](const Vec2& p, double angle) {
+    const Vec2 q(p.x * std::cos(angle) - p.y * std::sin(angle), p.x * std::sin(angle) + p.y * std::cos(angle));
+    return Vec2(std::round(q.x * 1e6), std::round(q.y * 1e6)) / 1e6;
+  };
+  const auto passes = [&](double angle, double depth) {
+    scene::Scene now = sceneOf({{{-17, -depth, 0}, {13, 12, 40}, "tower"}});
+    mesh::Mesh m = *now.meshes[0];
+    for (Vec3& p : m.positions) p = Vec3(turned(Vec2(p), angle), p.z);
+    now.meshes[0] = std::make_shared<const mesh::Mesh>(m);
+    outline::Region park;
+    outline::Ring ring;
+    for (const Vec2& p : {Vec2(-30, -20), Vec2(30, -20), Vec2(30, 0), Vec2(-30, 0)}) ring.push_back(turned(p, angle));
+    park.polygons.push_back({ring, {}}), park.area = 1200.0;
+    const auto targets = areaTargets({{"park", park}}, now, 1.0, 0.0);
+    const scene::Scene before = sceneOf({{{-30, 40, 0}, {30, 52, 15}, "house"}});
+    const auto v = verify(now, &before, *findRule("vancouver"), *targets, Strip().request);
+    EXPECT_TRUE(v);
+    return v && v->passes;
+  };
+  for (const double angle : {0.0, 0.1, -0.15, 0.2}) {
+    EXPECT_TRUE(passes(angle, 0.0)) << angle;
+    EXPECT_FALSE(passes(angle, 0.01)) << angle;  // it stands a centimetre within
+  }
+}
+
+TEST(NewOutlines, whatStoodBeforeIsNotNewByAnotherName) {
+  const Strip strip;
+  const auto targets = areaTargets(strip.areas, strip.before, 1.0, 0.0);
+  const scene::Scene before = sceneOf({{{-300, -40, 0}, {300, -25, 9}, "wall"}});
+  const scene::Scene now =
+      sceneOf({{{-300, -40, 0}, {17.3, -25, 9}, "left"}, {{17.3, -40, 0}, {300, -25, 9}, "right"}});
+  const auto v = verify(now, &before, *findRule("vancouver"), *targets, strip.request);
+  ASSERT_TRUE(v);
+  EXPECT_TRUE(v->passes);
+  // Nothing added at all.
+  const auto same = verify(before, &before, *findRule("vancouver"), *targets, strip.request);
+  ASSERT_TRUE(same);
+  EXPECT_TRUE(same->passes);
+}
+
 TEST(Targets, areasAreSharedOutByTheirSize) {
   const auto set = areaTargets({{"a", rectangle({0, 0}, {10, 7})}, {"tiny", rectangle({20.1, 20.1}, {20.2, 20.2})}},
                                sceneOf({}), 2.0, 1.0);
@@ -260,6 +386,21 @@ TEST(Targets, linesAroundASite) {
   EXPECT_NEAR(double(grid) * 4.0, 400 + 80 * 30 + M_PI * 900 - (400 + 80 * 5 + M_PI * 25), 60.0);
   EXPECT_FALSE(siteTargets({"site", {}}, rule, sceneOf({}), {4.0, 0.5, 2.0, 30.0}));
   EXPECT_FALSE(siteTargets({"site", site}, *findRule("korea"), sceneOf({}), {4.0, 0.5, 2.0, 30.0}));
+}
+
+// What passes on all that a longer reach looks at passes where a lower scene is looked at.
+TEST(Targets, aShorterReachHasSomeOfTheSamePoints) {
+  const outline::Region site = rectangle({-10, -10}, {10, 11});
+  const auto pointsWithin = [&](double reach) {
+    std::set<std::pair<double, double>> points;
+    const auto set = siteTargets({"site", site}, *findRule("japan-4-2.5"), sceneOf({}), {4.0, 0.25, 1.0, reach});
+    for (const Target& t : set->targets) points.insert({t.receiver.position.x, t.receiver.position.y});
+    return points;
+  };
+  const auto all = pointsWithin(60.0);
+  for (const double reach : {20.0, 30.3, 41.75, 59.5})
+    for (const auto& p : pointsWithin(reach))
+      ASSERT_TRUE(all.contains(p)) << reach << ' ' << p.first << ' ' << p.second;
 }
 
 TEST(Targets, onlyWhatStandsOnTheSiteCasts) {

@@ -15,25 +15,32 @@ bool isVeil(const scene::Material& material) {
   return std::max({part.x, part.y, part.z}) >= kDarkest;
 }
 
-// What the darkest channel of all veils takes, as -log2.
-double mostTaken(const std::vector<scene::Material>& materials) {
-  double most = 0.0;
-  for (const scene::Material& material : materials) {
-    const Vec3 part = scene::transmittance(material);
-    if (isVeil(material)) most = std::max(most, -std::log2(std::max(kDarkest, std::min({part.x, part.y, part.z}))));
-  }
-  return most;
+// What the darkest channel of a veil takes, as -log2; nothing of what is none.
+double mostTaken(const scene::Material& material) {
+  const Vec3 part = scene::transmittance(material);
+  return isVeil(material) ? -std::log2(std::clamp(std::min({part.x, part.y, part.z}), kDarkest, 1.0)) : 0.0;
 }
 
+// The most that a way can take up: of kMostSurfaces of the darkest, or of every triangle once, where that is less.
+double mostTaken(const scene::Surfaces& surfaces, const std::vector<scene::Material>& materials) {
+  std::vector<double> taken;
+  for (const scene::Material& material : materials) taken.push_back(mostTaken(material));
+  double all = 0.0, darkest = 0.0;
+  for (const std::uint32_t material : surfaces.materials)
+    all += taken[material], darkest = std::max(darkest, taken[material]);
+  return std::min(all, kMostSurfaces * darkest);
+}
+
+// So fine that `most` fits into 31 bits.
 double stepsFor(double most) {
-  if (!(most > 0.0)) return kFinest;
-  return std::min(kFinest, std::exp2(std::floor(std::log2(0x1p31 / (kMostSurfaces * most)))));
+  constexpr double kRoom = 0x1p31 - 0x1p16;  // each surface is rounded to whole steps
+  return most > 0.0 ? std::min(kFinest, std::exp2(std::floor(std::log2(kRoom / most)))) : kFinest;
 }
 
 }  // namespace
 
 Filters::Filters(const scene::Surfaces& surfaces, const std::vector<scene::Material>& materials)
-    : steps_(stepsFor(mostTaken(materials))) {
+    : steps_(stepsFor(mostTaken(surfaces, materials))) {
   const auto taken = [&](double part) {
     return static_cast<std::int32_t>(std::lround(-steps_ * std::log2(std::clamp(part, kDarkest, 1.0))));
   };

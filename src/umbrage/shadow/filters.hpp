@@ -15,7 +15,8 @@ using FilterSum = std::array<std::int32_t, 3>;
 
 /// Which surfaces let light through, and how much.
 /// 1. A part below 2^-14 (0.00006) of a channel counts as 2^-14.
-/// 2. Steps are as fine as they can be (at least 2^-17, at most 2^-24) for a sum of 1,000 of the darkest surfaces of the scene.
+/// 2. Steps are as fine as they can be (at least 2^-15, at most 2^-24) for the sum of all veils of the scene, or of 4,000 of the darkest where that is
+///    less.
 class Filters {
  public:
   /// All surfaces are opaque.

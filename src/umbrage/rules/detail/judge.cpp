@@ -1,6 +1,7 @@
 #include "umbrage/rules/detail/judge.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <string>
@@ -260,7 +261,9 @@ void weigh(const Requirement& requirement, const Panel& panel, std::vector<Recei
                        ? std::all_of(results.begin(), results.end(), [](const auto& r) { return r.passes; })
                        : finding.share >= finding.wanted - kRounding;
   finding.deciding = panel.deciding(results, finding.wanted);
-  finding.margin = results[*finding.deciding].margin;
+  // Where nothing has to pass, no receiver can turn it.
+  finding.margin =
+      finding.wanted > kRounding ? results[*finding.deciding].margin : std::numeric_limits<double>::infinity();
   finding.receivers = std::move(results);
 }
 
@@ -382,7 +385,7 @@ std::shared_ptr<const Day> dayOf(const Measure& measure, year_month_day date, co
   if (conventions.fixedDeclination)
     model.declination =
         study::declinationAt(sun::instantOfHourAngle(conventions.calendar.place, span.from + span.length() / 2, {}));
-  Day day{date, study::SunCourse::make(conventions.calendar.place, span, model), {}};
+  Day day{date, study::SunCourse::make(conventions.calendar.place, span, model), {}, model};
   day.counting = countingTimes(day.course, measure.leastAltitude);
   auto made = day.counting.empty() ? nullptr : std::make_shared<const Day>(std::move(day));
   conventions.days->known.emplace(key, made);

@@ -13,6 +13,7 @@ struct Day {
   std::chrono::year_month_day date;
   study::SunCourse course;
   Spans counting;
+  study::SunModel model;  ///< of the course
 };
 
 /// The conventions of one run.

@@ -65,6 +65,23 @@ TEST(Transparent, HundredsOfPanesAddUp) {
   }
 }
 
+// Glass of one pure colour takes nearly all of the others; that there is some beside makes no other's share coarser.
+TEST(Transparent, PureColoursMakeNothingCoarser) {
+  for (const auto& [t, n] : {std::pair{0.976, 41}, {0.98, 64}, {0.999, 900}}) {
+    Builder b;
+    const auto ground = b.material(Vec3(0.8), 1.0), pane = b.material(Vec3(1.0), 1.0 - t),
+               red = b.material(Vec3(1.0, 0.0, 0.0), 0.3);
+    b.quad({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, ground);
+    for (int i = 0; i < n; ++i) b.quad({0, 0, 1 + 0.01 * i}, {2, 0, 0}, {0, 2, 0}, pane);
+    b.quad({2.5, 2.5, 1}, {0.2, 0, 0}, {0, 0.2, 0}, red);
+    const auto geometry = shadow::makeGeometry(b.scene);
+    const shadow::FilterSum one = geometry->filters.of(2);  // after the ground's two
+    const Vec3f left = geometry->filters.transmitted({n * one[0], n * one[1], n * one[2]});
+    // Half of the finest step each.
+    EXPECT_NEAR(left.x, std::pow(t, n), n * 0x1p-25) << t << " " << n;
+  }
+}
+
 TEST(Transparent, TheOrderOfCastersChangesNothing) {
   const std::vector<Light> lights{{scene::PointLight{{3, -2, 6}}}};
   auto scene = soup(400, 1.2, 3);
