@@ -65,9 +65,10 @@ const std::vector<Variant>& variants() {
 // The first, and those with `word` in their names.
 std::vector<Variant> variantsWith(std::string_view word) {
   std::vector<Variant> some = variants();
-  some.erase(std::remove_if(some.begin() + 1, some.end(),
-                            [&](const Variant& v) { return std::string_view(v.name).find(word) == std::string_view::npos; }),
-             some.end());
+  some.erase(
+      std::remove_if(some.begin() + 1, some.end(),
+                     [&](const Variant& v) { return std::string_view(v.name).find(word) == std::string_view::npos; }),
+      some.end());
   return some;
 }
 
@@ -99,7 +100,8 @@ std::unique_ptr<shadow::Technique> make(const Variant& v, const std::shared_ptr<
   return techniques::makeZPass(context, v.options);
 }
 
-bool measure(const View& view, const std::vector<Variant>& chosen, int rounds, const std::shared_ptr<gl::Context>& context) {
+bool measure(const View& view, const std::vector<Variant>& chosen, int rounds,
+             const std::shared_ptr<gl::Context>& context) {
   const shadow::Frame frame{view.camera, {&view.light, 1}};
   const auto askedFor = [&](const Variant& v) {
     shadow::Frame asked = frame;
@@ -144,9 +146,9 @@ bool measure(const View& view, const std::vector<Variant>& chosen, int rounds, c
         "  %-24s volumes %7.1f %7.1f ms %6.3f | processor %5.1f | shading %7.1f ms, %5.2f of bare | %7zu triangles, "
         "casters hidden "
         "%zu behind %zu endless %zu, sides behind %zu | %zu pixels differ\n",
-        chosen[i].name, least(t.volumes), median(t.volumes), median(t.toPlain), least(t.processor),
-        least(t.shading), median(t.toBare), s.volumeTriangles, s.castersHidden, s.castersBehind, s.endlessCasters,
-        s.sidesBehind, differing(last[i].masks[0].light, expected->masks[0].light));
+        chosen[i].name, least(t.volumes), median(t.volumes), median(t.toPlain), least(t.processor), least(t.shading),
+        median(t.toBare), s.volumeTriangles, s.castersHidden, s.castersBehind, s.endlessCasters, s.sidesBehind,
+        differing(last[i].masks[0].light, expected->masks[0].light));
     if (i == 4 || i + 1 == all.size()) {
       std::printf("      ");
       for (const auto& p : last[i].stats.phases) std::printf("%s %.1f  ", p.name.c_str(), p.milliseconds);

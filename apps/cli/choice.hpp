@@ -21,8 +21,8 @@ struct Chosen {
 
 /// What a picture asks of its technique.
 struct Needs {
-  bool tinted = false;                             ///< there are surfaces that let light through
-  bool soft = false;                               ///< there are lights with an extent
+  bool tinted = false;  ///< there are surfaces that let light through
+  bool soft = false;    ///< there are lights with an extent
 };
 
 /// By name, or "auto": soft_cpu or transparent_cpu where they are needed, else zpass on a GPU and hybrid_cpu without one.

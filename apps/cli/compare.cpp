@@ -24,7 +24,7 @@ struct Comparison {
   std::string technique, against;  ///< names, "auto" resolved
   std::vector<Agreement> lights;
   std::vector<VeilAgreement> veils;  ///< per light, where both show veils
-  std::size_t unknown = 0;  ///< pixels on which one of them knows no shadows
+  std::size_t unknown = 0;           ///< pixels on which one of them knows no shadows
 
   [[nodiscard]] bool agree() const {
     const auto holds = [](const auto& light) { return light.holds(); };

@@ -120,7 +120,7 @@ std::vector<Output> outputs(const RadiosityOptions& options, const Lit& lit) {
   for (const std::string& path : options.outputs)
     list.push_back({path, [&options, &lit](const std::string& to) {
                       return hasExtension(to, ".png") ? writePicture(options, lit, to)
-                                                  : io::writeColoured(colouredMesh(lit), lit.view.scene, to);
+                                                      : io::writeColoured(colouredMesh(lit), lit.view.scene, to);
                     }});
   if (!options.stats.empty())
     list.push_back({options.stats, [&lit](const std::string& to) { return writeFile(to, statsJson(lit)); }});
@@ -169,8 +169,8 @@ Run addRadiosity(CLI::App& app) {
   addWord(app, "--stats", "STATS.json", "What was done, where the light has gone, and how long it took",
           options->stats);
   addValue(app, "--patch", "SIZE",
-           "Edges of what gives off light, in the scene's unit (default: a fifth of its radius)",
-           options->solve.patch, numberIn(1e-9, 1e9), kLight);
+           "Edges of what gives off light, in the scene's unit (default: a fifth of its radius)", options->solve.patch,
+           numberIn(1e-9, 1e9), kLight);
   addValue(app, "--element", "SIZE", "Edges of what receives it are cut no shorter (default: a sixteenth of --patch)",
            options->solve.element, numberIn(1e-9, 1e9), kLight);
   addValue(app, "--error", "E",

@@ -47,8 +47,9 @@ Result<Outcome> selfCheck(const std::string&) {
   text += fmt::format("  {:<22}{:>6}  {:>10}  {:>10}  {:>8} {:<8} {}\n", "", "count", "mean", "worst", "at most", "",
                       "worst at");
   text += sunText(sun) + hoursText(*hours);
-  text += fmt::format("Not in this: the Earth turns up to 0.9 s ahead of clocks or behind (UT1 - UTC), {:.4f} degrees.\n\n",
-                      sun.universalTime.worst);
+  text +=
+      fmt::format("Not in this: the Earth turns up to 0.9 s ahead of clocks or behind (UT1 - UTC), {:.4f} degrees.\n\n",
+                  sun.universalTime.worst);
   return Outcome{text + (right ? "All of it holds." : "It does NOT hold: please report this with the lines above."),
                  right ? 0 : 1};
 }

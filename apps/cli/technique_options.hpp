@@ -18,8 +18,8 @@ enum class StencilCounter { exact, wrap, saturate };
 struct TechniqueOptions {
   StencilCounter counter = StencilCounter::exact;  ///< of techniques that count in a stencil
   shadow::PlaneSearch planes;                      ///< of planar
-  int mapTexels = 0;            ///< of shadow maps, a side; 0: automatic
-  int mapFilter = 1;            ///< of shadow maps, in texels
+  int mapTexels = 0;                               ///< of shadow maps, a side; 0: automatic
+  int mapFilter = 1;                               ///< of shadow maps, in texels
   std::optional<Vec2> mapBias;  ///< of shadow maps, constant and by slope; none: as the technique has it
 };
 /// --stencil-counter, --planes, --plane, --map-size, --map-filter and --map-bias.

@@ -112,7 +112,8 @@ Result<void> run(const Options& options) {
 bool apply(Options& o, const std::string& name, const std::string& value) {
   if (name == "rounds") return o.rounds = std::atoi(value.c_str()), o.rounds > 0;
   if (name == "shot") return o.shot = value, true;
-  if (name == "only") return std::erase_if(o.entries, [&](const Entry& e) { return e.name != value; }), !o.entries.empty();
+  if (name == "only")
+    return std::erase_if(o.entries, [&](const Entry& e) { return e.name != value; }), !o.entries.empty();
   if (name.starts_with("fact:")) return o.facts[name.substr(5)] = value, true;
   if (name.starts_with("peer:")) return o.entries.push_back(peerEntry(name.substr(5), value)), true;
   return false;
@@ -136,7 +137,8 @@ int main(int argc, char** argv) {
     good = good && split != std::string::npos && apply(options, text.substr(0, split), text.substr(split + 1));
   }
   if (!good) {
-    std::cerr << "usage: umbrage_frames OUT.json [rounds=N] [shot=..] [only=..] [fact:NAME=VALUE ..] [peer:NAME=COMMAND ..]\n";
+    std::cerr << "usage: umbrage_frames OUT.json [rounds=N] [shot=..] [only=..] [fact:NAME=VALUE ..] "
+                 "[peer:NAME=COMMAND ..]\n";
     return 2;
   }
   options.out = argv[1];

@@ -11,9 +11,8 @@ namespace umbrage::benchmarks {
 namespace {
 
 // Okabe and Ito's palette, then two greys and two browns. Source: Okabe and Ito, Color Universal Design, 2008.
-constexpr const char* kColours[] = {"#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9",
-                                    "#d55e00", "#b8a800", "#000000", "#777777", "#bbbbbb",
-                                    "#8c5a2b", "#d9b38c"};
+constexpr const char* kColours[] = {"#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00",
+                                    "#b8a800", "#000000", "#777777", "#bbbbbb", "#8c5a2b", "#d9b38c"};
 constexpr double kWidth = 860, kRight = 30, kLineHeight = 20;
 
 const char* colour(std::size_t series) { return kColours[series % std::size(kColours)]; }

@@ -17,9 +17,10 @@ using testing::HasSubstr;
 class RadiosityCommand : public CliTest {};
 
 TEST_F(RadiosityCommand, WritesPicturesModelsAndTheEnergy) {
-  const Ran ran =
-      umbrage({"radiosity", "sample:cornell", "-o", file("a.png"), "-o", file("a.glb"), "-o", file("a.ply"), "--stats",
-               file("s.json"), "--patch", "2", "--element", "0.5", "--error", "0.3", "--unshot", "0.02", "--size", "60x40"});
+  const Ran ran = umbrage(
+      {"radiosity", "sample:cornell", "-o",      file("a.png"), "-o",        file("a.glb"), "-o",      file("a.ply"),
+       "--stats",   file("s.json"),   "--patch", "2",           "--element", "0.5",         "--error", "0.3",
+       "--unshot",  "0.02",           "--size",  "60x40"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(files(), ElementsAre("a.glb", "a.ply", "a.png", "s.json"));
   for (const char* word : {"emitted", "absorbed", "escaped", "unshot", "error"}) EXPECT_THAT(ran.out, HasSubstr(word));

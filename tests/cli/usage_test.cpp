@@ -135,8 +135,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(CliTest, HelpAndVersionAreNoErrors) {
   const Ran help = umbrage({"--help"});
   EXPECT_EQ(help.code, 0);
-  for (const auto* command : {"info", "techniques", "sun", "render", "radiosity", "compare", "gallery", "cut", "profile",
-                              "outline", "envelope", "isochrones", "terrain", "sample", "verify"})
+  for (const auto* command : {"info", "techniques", "sun", "render", "radiosity", "compare", "gallery", "cut",
+                              "profile", "outline", "envelope", "isochrones", "terrain", "sample", "verify"})
     EXPECT_THAT(help.out, HasSubstr(command));
   // What later versions bring is not pretended.
   EXPECT_THAT(help.out, Not(HasSubstr("  view")));

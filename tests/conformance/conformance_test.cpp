@@ -97,7 +97,8 @@ TEST(ConformanceOfEyes, OnEdgesOfCastersAcrossTheView) {
         const Vec3 a = casters.corner(t, k), b = casters.corner(t, (k + 1) % 3), third = casters.corner(t, (k + 2) % 3);
         const Vec3 eye = 0.625 * a + 0.375 * b + geometry->surfaces.origin;
         const Vec3 along = glm::normalize(glm::cross(glm::cross(b - a, third - a), b - a));
-        c.views.push_back({"edge " + std::to_string(3 * t + k), looking(eye, eye + (t % 2 == 0 ? 1.0 : -1.0) * along, 70, 80, 60)});
+        c.views.push_back(
+            {"edge " + std::to_string(3 * t + k), looking(eye, eye + (t % 2 == 0 ? 1.0 : -1.0) * along, 70, 80, 60)});
       }
     for (const shadow::TechniqueEntry& entry : allTechniques()) judgeTechnique(entry, c, geometry);
   }

@@ -8,7 +8,8 @@
 namespace umbrage::docs_test {
 
 /// How a command ended: what it printed, with "(exit code N)" as a last line where N is not 0.
-using RunCommand = std::function<std::string(const std::vector<std::string>& words, const std::filesystem::path& folder)>;
+using RunCommand =
+    std::function<std::string(const std::vector<std::string>& words, const std::filesystem::path& folder)>;
 
 /// A page of the documentation with every command in its ```console blocks run anew. A command is a line "$ umbrage WORDS"; what follows,
 /// to the next command or the block's end, is what it prints. Commands run in the page's folder.

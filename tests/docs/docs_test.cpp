@@ -43,14 +43,16 @@ INSTANTIATE_TEST_SUITE_P(Docs, Page, testing::ValuesIn(pagesWithCommands(kDocs))
 
 TEST(ConsolePage, RunsTheCommandsOfItsBlocksAndNothingElse) {
   const fs::path page = fs::path(testing::TempDir()) / "umbrage_console_page.md";
-  std::ofstream(page) << "Text\n```\n$ umbrage no\n```\n```console\n$ umbrage sun --tz 'a b'\nold\n\n$ umbrage info\n```\nEnd\n";
+  std::ofstream(page)
+      << "Text\n```\n$ umbrage no\n```\n```console\n$ umbrage sun --tz 'a b'\nold\n\n$ umbrage info\n```\nEnd\n";
   std::vector<std::vector<std::string>> seen;
   const auto text = withCommandsRun(page, [&](const auto& words, const auto&) {
     seen.push_back(words);
     return "new\n";
   });
-  EXPECT_EQ(text,
-            "Text\n```\n$ umbrage no\n```\n```console\n$ umbrage sun --tz 'a b'\nnew\n\n$ umbrage info\nnew\n```\nEnd\n");
+  EXPECT_EQ(
+      text,
+      "Text\n```\n$ umbrage no\n```\n```console\n$ umbrage sun --tz 'a b'\nnew\n\n$ umbrage info\nnew\n```\nEnd\n");
   EXPECT_THAT(seen, testing::ElementsAre(testing::ElementsAre("sun", "--tz", "a b"), testing::ElementsAre("info")));
   fs::remove(page);
 }

@@ -71,9 +71,9 @@ class MovingCasters : public ::testing::Test {
 
   void mark(const scene::Light& light, Counting counting = Counting::zPass) {
     // Nothing but the wall is in the depth buffer, so casters in the view are to be counted by z-fail.
-    const auto marked = shadows_->mark(light, {kView, projection_}, posed_,
-                                       {.counting = counting, .castersInDepth = counting == Counting::zPass,
-                                        .receivers = receivers_});
+    const auto marked =
+        shadows_->mark(light, {kView, projection_}, posed_,
+                       {.counting = counting, .castersInDepth = counting == Counting::zPass, .receivers = receivers_});
     ASSERT_TRUE(marked) << marked.error().text();
   }
 
@@ -222,8 +222,8 @@ TEST_F(MovingCasters, MayHaveSidesAtTheEye) {
         const auto world = [&](std::uint32_t p) { return Vec3(pose * Vec4(box_->position(p) + box_->origin, 1.0)); };
         const Vec3 a = world(edges[i].a), b = world(edges[i].b), middle = glm::mix(a, b, 0.37);
         // The edge's point comes to lie a third of the way from the light to the eye, or two units before it.
-        const Vec3 place = seenFrom.w == 0.0 ? kEye + 2.0 * glm::normalize(Vec3(seenFrom))
-                                             : glm::mix(Vec3(seenFrom), kEye, 0.7);
+        const Vec3 place =
+            seenFrom.w == 0.0 ? kEye + 2.0 * glm::normalize(Vec3(seenFrom)) : glm::mix(Vec3(seenFrom), kEye, 0.7);
         const Vec3 normal = glm::normalize(glm::cross(b - a, kEye - place));
         posed_ = {{box_, at(place - middle + distance * normal) * pose}};
         for (const Box3& receivers : {Box3(), wall()})

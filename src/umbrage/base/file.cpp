@@ -76,7 +76,7 @@ Result<std::vector<std::byte>> readFile(const std::filesystem::path& path, std::
   // O_NONBLOCK: opening a named pipe must not hang; it is refused below as not a regular file.
   Descriptor in(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (in.get() < 0) return fail(ErrorCode::input, "cannot be opened: " + systemReason(errno), path.string());
-  struct stat status{};
+  struct stat status {};
   if (::fstat(in.get(), &status) != 0 || !S_ISREG(status.st_mode))
     return fail(ErrorCode::input, "is not a regular file", path.string());
   const auto size = static_cast<std::size_t>(status.st_size);

@@ -83,7 +83,8 @@ void apply(const PassState& state, bool knowsDepthBounds) {
   applyColour(state);
   turn(GL_CULL_FACE, state.cullBack);
   UMBRAGE_CHECK(state.clipDistances >= 0 && state.clipDistances <= kMostClipDistances, "so many clip distances");
-  for (int i = 0; i < kMostClipDistances; ++i) turn(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i), i < state.clipDistances);
+  for (int i = 0; i < kMostClipDistances; ++i)
+    turn(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i), i < state.clipDistances);
   glFrontFace(state.frontIsClockwise ? GL_CW : GL_CCW);
   glClipControl(state.clipOrigin == ClipOrigin::lowerLeft ? GL_LOWER_LEFT : GL_UPPER_LEFT,
                 state.clipDepth == ClipDepth::zeroToOne ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
@@ -161,8 +162,7 @@ void Pass::drawIndirect(const VertexArray& vertices, const Buffer& draws, std::s
   UMBRAGE_CHECK((which + 1) * sizeof(IndirectDraw) <= draws.bytes(), "no such draw");
   glBindVertexArray(vertices.name());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, draws.name());
-  glDrawElementsIndirect(code(primitive), GL_UNSIGNED_INT,
-                         reinterpret_cast<const void*>(which * sizeof(IndirectDraw)));
+  glDrawElementsIndirect(code(primitive), GL_UNSIGNED_INT, reinterpret_cast<const void*>(which * sizeof(IndirectDraw)));
 }
 
 void Pass::publishStorage() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT); }

@@ -15,7 +15,8 @@ namespace umbrage::gl {
 [[nodiscard]] image::GreyImage readGrey(const HostScope& scope, const Framebuffer& from, int width, int height);
 [[nodiscard]] image::RgbaImage readRgba(const HostScope& scope, const Framebuffer& from, int width, int height);
 [[nodiscard]] image::Image<Vec2f> readPairs(const HostScope& scope, const Framebuffer& from, int width, int height);
-[[nodiscard]] image::Image<Vec4f> readQuadruples(const HostScope& scope, const Framebuffer& from, int width, int height);
+[[nodiscard]] image::Image<Vec4f> readQuadruples(const HostScope& scope, const Framebuffer& from, int width,
+                                                 int height);
 [[nodiscard]] image::Image<std::uint32_t> readIds(const HostScope& scope, const Framebuffer& from, int width,
                                                   int height);
 [[nodiscard]] image::Image<float> readDepth(const HostScope& scope, const Framebuffer& from, int width, int height);

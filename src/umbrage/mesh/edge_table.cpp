@@ -51,7 +51,8 @@ EdgeTable buildEdgeTable(std::span<const Triangle> triangles) {
   table.ends.reserve(buckets.entries.size() / 2);
   table.begin.reserve(buckets.entries.size() / 2 + 1);
   for (std::uint32_t low = 0; low + 1 < buckets.begin.size(); ++low) {
-    const auto bucket = std::span(buckets.entries).subspan(buckets.begin[low], buckets.begin[low + 1] - buckets.begin[low]);
+    const auto bucket =
+        std::span(buckets.entries).subspan(buckets.begin[low], buckets.begin[low + 1] - buckets.begin[low]);
     // Entries came in the order of the triangles; among equal edges it must stay.
     std::sort(bucket.begin(), bucket.end(), [](const Entry& a, const Entry& b) {
       return a.high != b.high ? a.high < b.high

@@ -18,10 +18,10 @@ enum class Topology { empty, closed, open, nonManifold };
 struct MeshReport {
   std::size_t triangles = 0;
   std::size_t edges = 0;
-  std::size_t borderEdges = 0;       ///< used by one triangle
-  std::size_t nonManifoldEdges = 0;  ///< used by more than two
-  std::size_t windingFlips = 0;      ///< edges of two triangles that run through it in the same direction
-  std::size_t components = 0;        ///< pieces connected through shared corners
+  std::size_t borderEdges = 0;          ///< used by one triangle
+  std::size_t nonManifoldEdges = 0;     ///< used by more than two
+  std::size_t windingFlips = 0;         ///< edges of two triangles that run through it in the same direction
+  std::size_t components = 0;           ///< pieces connected through shared corners
   Topology topology = Topology::empty;  ///< nonManifold before open before closed
 };
 

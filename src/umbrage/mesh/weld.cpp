@@ -33,7 +33,8 @@ Weld weldPoints(std::span<const V> positions) {
   result.remap.resize(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     std::size_t slot = hashOf(positions[i]) & (slots - 1);
-    while (table[slot] != kFree && positions[result.first[table[slot]]] != positions[i]) slot = (slot + 1) & (slots - 1);
+    while (table[slot] != kFree && positions[result.first[table[slot]]] != positions[i])
+      slot = (slot + 1) & (slots - 1);
     if (table[slot] == kFree) {
       table[slot] = static_cast<std::uint32_t>(result.first.size());
       result.first.push_back(static_cast<std::uint32_t>(i));

@@ -206,7 +206,8 @@ Shown makeSurfacePatch(const PixelSpace& space, const SeenPositions& positions, 
                        std::uint32_t triangle, Patch& out) {
   const mesh::Triangle& corner = surfaces.triangles[triangle];
   const auto isInPlane = [&] {
-    return liesInPlane(surfaces.corner(triangle, 0), surfaces.corner(triangle, 1), surfaces.corner(triangle, 2), space.eye);
+    return liesInPlane(surfaces.corner(triangle, 0), surfaces.corner(triangle, 1), surfaces.corner(triangle, 2),
+                       space.eye);
   };
   // The eye may lie in the very triangle, which then has no picture to be bounded, but is crossed on every way from the eye.
   if (isAroundEye(positions.mapped, corner) && isInPlane()) return Shown::edgeOn;

@@ -1,5 +1,5 @@
-#include "umbrage/render/detail/card_technique.hpp"
 #include "umbrage/render/mask_technique.hpp"
+#include "umbrage/render/detail/card_technique.hpp"
 
 #include <umbrage_shaders/mask_add_frag.hpp>
 #include <umbrage_shaders/mask_mean_frag.hpp>

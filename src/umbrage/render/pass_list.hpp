@@ -60,7 +60,7 @@ struct PassList {
 
 /// What is counted together.
 struct GroupPlan {
-  int eyeCount = 0;  ///< the stencil starts from it, wrapped into the bits that count
+  int eyeCount = 0;          ///< the stencil starts from it, wrapped into the bits that count
   bool nearCasters = false;  ///< what lies between the near rectangle and the light is counted first, by drawing it
   bool passSides = false, failSides = false, failCaps = false;  ///< which parts of the volumes are not empty
   bool turnedSides = false;
@@ -102,7 +102,8 @@ enum class Product {
 // The pieces of it for techniques that find shadows in ways of their own.
 
 /// The mask of a light inside `litArea`, black elsewhere: white where the surface faces it and the stencil has none of the bits `shadow`.
-[[nodiscard]] PassList planMask(const gl::PassState& placement, int light, const gl::Rect& litArea, std::uint8_t shadow);
+[[nodiscard]] PassList planMask(const gl::PassState& placement, int light, const gl::Rect& litArea,
+                                std::uint8_t shadow);
 /// The picture from the first `lights` masks.
 [[nodiscard]] PassList planMaskedPicture(const gl::PassState& placement, int lights);
 

@@ -37,8 +37,7 @@ TEST(PlanPasses, ZPassFromInsideTwoVolumesWithOneCasterByZFail) {
 TEST(PlanPasses, PictureWithASunAndASpot) {
   const LightPlan sun{.groups = {{.passSides = true}}, .volumeArea = kAll, .litArea = kAll};
   const LightPlan spot{.groups = {{.eyeCount = 1, .passSides = true}}, .volumeArea = kAll, .litArea = {10, 10, 8, 8}};
-  EXPECT_TRUE(
-      approval::approved("passes_picture", describe(wholeFrame({sun, spot}, Product::picture))));
+  EXPECT_TRUE(approval::approved("passes_picture", describe(wholeFrame({sun, spot}, Product::picture))));
 }
 
 TEST(PlanPasses, HostStencilWithOrdinaryDepth) {
@@ -69,10 +68,8 @@ TEST(PlanPasses, ZpPlusDrawsCastersFirst) {
 }
 
 TEST(PlanPasses, OneFaceAtATimeWithoutTwoSidedStencil) {
-  const LightPlan light{.groups = {{.failSides = true, .failCaps = true}},
-                        .twoSided = false,
-                        .volumeArea = kAll,
-                        .litArea = kAll};
+  const LightPlan light{
+      .groups = {{.failSides = true, .failCaps = true}}, .twoSided = false, .volumeArea = kAll, .litArea = kAll};
   EXPECT_TRUE(approval::approved("passes_one_sided", describe(wholeFrame({light}, Product::masks))));
 }
 
@@ -106,8 +103,7 @@ TEST(PlanPasses, CountersThatSaturateCountUpBeforeTheyCountDown) {
 
 // The same corners in the same order, so up and down are exchanged.
 TEST(PlanPasses, TurnedSidesCountTheOtherWayRound) {
-  const LightPlan light{
-      .groups = {{.failSides = true, .turnedSides = true}}, .volumeArea = kAll, .litArea = kAll};
+  const LightPlan light{.groups = {{.failSides = true, .turnedSides = true}}, .volumeArea = kAll, .litArea = kAll};
   gl::StencilState straight, turned;
   for (const PassStep& step : wholeFrame({light}, Product::masks).steps) {
     if (step.draw == Draw::failSides) straight = step.state.stencil;

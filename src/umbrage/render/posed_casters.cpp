@@ -42,8 +42,7 @@ Box3 worldBounds(const PosedCasters& posed) {
   const Box3& own = posed.casters->bounds;
   Box3 box;
   if (own.empty()) return box;
-  for (int i = 0; i < 8; ++i)
-    box.add(Vec3(posed.toWorld * Vec4(cornerOf(own, i) + posed.casters->origin, 1.0)));
+  for (int i = 0; i < 8; ++i) box.add(Vec3(posed.toWorld * Vec4(cornerOf(own, i) + posed.casters->origin, 1.0)));
   return box;
 }
 

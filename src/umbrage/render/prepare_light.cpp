@@ -34,7 +34,8 @@ struct Part {
 };
 
 detail::VolumeShape shapeOf(const VolumeRequest& request) {
-  return detail::VolumeShape({request.casters(), request.light, request.eye, request.options, request.receivers, request.tiles});
+  return detail::VolumeShape(
+      {request.casters(), request.light, request.eye, request.options, request.receivers, request.tiles});
 }
 
 // For LightStats::choices, where they are wanted: what became of the components that are flagged.
@@ -153,7 +154,11 @@ std::vector<std::uint32_t> passSides(const VolumeRequest& request, const Part& p
   Components chosen;
   if (part.atEye.byZFailCount > 0)
     for (const std::uint8_t fallen : part.atEye.byZFail) chosen.push_back(fallen == 0 ? 1 : 0);
-  shadow::ExtrudeOptions options{.caps = false, .components = chosen, .reach = shape.reach(), .keepSide = {}, .sidesAsEdges = sidesAsEdges(request)};
+  shadow::ExtrudeOptions options{.caps = false,
+                                 .components = chosen,
+                                 .reach = shape.reach(),
+                                 .keepSide = {},
+                                 .sidesAsEdges = sidesAsEdges(request)};
   if (shape.dropsParts())
     options.keepSide = [&](const shadow::SilhouetteEdge& edge) {
       const bool keep = shape.mayCount(edge.a, edge.b, edge.component);
@@ -284,9 +289,7 @@ LightVolume prepareOnCard(const VolumeRequest& request, shadow::LightStats& stat
   if (request.counting != Counting::zFail) tell(stats, between, shadow::CasterChoice::zFailBetween);
   const Components useless = findUseless(request, shape, stats);
   for (std::uint32_t c = 0; c < casters.componentCount; ++c) {
-    const Role role = between[c] != 0                          ? Role::failAtEye
-                      : request.counting == Counting::zFail ? Role::fail
-                                                               : Role::pass;
+    const Role role = between[c] != 0 ? Role::failAtEye : request.counting == Counting::zFail ? Role::fail : Role::pass;
     out.roles.push_back(useless[c] != 0 ? Role::leftOut : role);
     stats.castersByZFail += request.counting != Counting::zFail && out.roles.back() == Role::failAtEye;
   }

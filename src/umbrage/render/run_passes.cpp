@@ -92,8 +92,11 @@ void draw(gl::Pass& pass, const PassStep& step, const RunInput& input, const Gpu
   pass.storage(0, step.shader == Shader::carriedVolume ? light->points : input.positions);
   const bool fromEdges = step.shader == Shader::volumeSides || step.shader == Shader::finiteVolumeSides;
   const auto primitive = fromEdges ? gl::Primitive::lines : gl::Primitive::triangles;
-  if (step.shader == Shader::finiteVolume || step.shader == Shader::finiteVolumeSides) pass.storage(1, inPicture ? light->nearPoints : light->farPoints);
-  const auto volume = [&](const IndexRange& range) { pass.drawIndexed(light->vertices, range.first, range.count, primitive); };
+  if (step.shader == Shader::finiteVolume || step.shader == Shader::finiteVolumeSides)
+    pass.storage(1, inPicture ? light->nearPoints : light->farPoints);
+  const auto volume = [&](const IndexRange& range) {
+    pass.drawIndexed(light->vertices, range.first, range.count, primitive);
+  };
   const auto part = [&](CardVolume::Part which, const IndexRange& range) {
     light->onCard ? pass.drawIndirect(light->card.vertices, light->card.draws, which, primitive) : volume(range);
   };

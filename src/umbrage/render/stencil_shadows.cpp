@@ -146,7 +146,8 @@ std::vector<IndexRange> seenSides(const shadow::CasterSet& casters, const Volume
 Member memberOf(const PosedCasters& posed, const StoredVolume& volume, const VolumePart& part, const Vec3& eye,
                 Counting counting, std::vector<std::uint8_t>& touched) {
   const shadow::CasterSet& casters = *posed.casters;
-  Member m{&volume, &part, nullptr, nullptr, mirrors(posed), counting == Counting::zFail, 0, {}, &volume.vertices, part.caps};
+  Member m{&volume, &part, nullptr,          nullptr,  mirrors(posed), counting == Counting::zFail,
+           0,       {},    &volume.vertices, part.caps};
   shadow::EyeCount atEye;
   if (counting == Counting::zFail)
     atEye.byZFail = shadow::sidesAtEye(casters, part.silhouette, eye);

@@ -72,7 +72,7 @@ class StencilShadows {
   Programs programs_;
   std::vector<PlaceData> places_;  ///< one a caster set of the call
   gl::Quirks quirks_;
-  gl::VertexArray nothing_;        ///< for what is drawn without a buffer
+  gl::VertexArray nothing_;  ///< for what is drawn without a buffer
 };
 
 }  // namespace umbrage::render

@@ -26,7 +26,8 @@ std::string reasonFor(Counting counting, Overflow overflow, const shadow::LightS
   else if (counting == Counting::zPassPlus && stats.castersByZFail == 0)
     text = "no caps needed; the casters are drawn as the light sees them through the near rectangle";
   else if (stats.castersByZFail > 0 && !volume.roles.empty())
-    text = fallen + " casters by z-fail, since by their boxes they may lie between the eye and the light, the others by z-pass";
+    text = fallen +
+           " casters by z-fail, since by their boxes they may lie between the eye and the light, the others by z-pass";
   else if (stats.castersByZFail > 0)
     text = fallen + " casters by z-fail, since the eye touches a side of their shadow volumes";
   else if (stats.eyeCount != 0)
@@ -75,7 +76,8 @@ class StencilTechnique final : public detail::CardTechnique {
     if (auto done = render(scope, *target, frame, Product::masks, nullptr, shading.stats, ended); !done)
       return tl::unexpected(done.error());
     const View view = viewOf(frame.camera, geometry_->surfaces.bounds.radius());
-    readMasks(scope, *target, view, frame.lights.size(), seen_ ? std::move(*seen_) : readSurface(scope, *target), shading);
+    readMasks(scope, *target, view, frame.lights.size(), seen_ ? std::move(*seen_) : readSurface(scope, *target),
+              shading);
     seen_.reset();
     tellCounts(shading.stats);
     clock.end("readback");
@@ -153,8 +155,8 @@ class StencilTechnique final : public detail::CardTechnique {
       stats.lights.emplace_back();
       auto tiles = addReceivers(scope, i, frame.lights[i], view, camera, volumes, target, input, ended);
       if (!tiles) return tl::unexpected(tiles.error());
-      auto plan =
-          addVolume(scope, own_->lights[i], frame.lights[i], view, volumes, frame.detailed, *tiles, placement, stats.lights.back(), ended);
+      auto plan = addVolume(scope, own_->lights[i], frame.lights[i], view, volumes, frame.detailed, *tiles, placement,
+                            stats.lights.back(), ended);
       if (!plan) return tl::unexpected(plan.error());
       plans.push_back(*plan);
     }
@@ -239,9 +241,9 @@ class StencilTechnique final : public detail::CardTechnique {
     }
   }
 
-  Result<LightPlan> addVolume(gl::HostScope& scope, GpuLight& gpu, const scene::Light& light, const View& view, const VolumeOptions& volumes, bool detailed,
-                              const std::optional<ReceiverTiles>& tiles, const gl::PassState& placement,
-                              shadow::LightStats& stats, const PhaseEnd& ended) {
+  Result<LightPlan> addVolume(gl::HostScope& scope, GpuLight& gpu, const scene::Light& light, const View& view,
+                              const VolumeOptions& volumes, bool detailed, const std::optional<ReceiverTiles>& tiles,
+                              const gl::PassState& placement, shadow::LightStats& stats, const PhaseEnd& ended) {
     const shadow::CasterSet& casters = geometry_->casters;
     const Vec3& origin = geometry_->surfaces.origin;
     const Box3& receivers = geometry_->surfaces.bounds;
@@ -266,8 +268,9 @@ class StencilTechnique final : public detail::CardTechnique {
     stats.reason = reasonFor(counting_, volumes.overflow, stats, volume);
     ViewBlock inPicture = viewBlock(view, origin, homogeneous);
     inPicture.toClip = Mat4f(1.0f);
-    for (const auto& done : {gpu.volume.setAll(volume.indices), gpu.farPoints.setAll(volume.farPoints), gpu.points.setAll(volume.points),
-                             gpu.inPicture.setOne(inPicture), gpu.nearPoints.setAll(volume.nearPoints)})
+    for (const auto& done :
+         {gpu.volume.setAll(volume.indices), gpu.farPoints.setAll(volume.farPoints), gpu.points.setAll(volume.points),
+          gpu.inPicture.setOne(inPicture), gpu.nearPoints.setAll(volume.nearPoints)})
       if (!done) return tl::unexpected(done.error());
     gpu.groups = volume.groups;
     if (ended) {
@@ -277,7 +280,8 @@ class StencilTechnique final : public detail::CardTechnique {
     const std::vector<GroupPlan> groups = planGroups(volume);
     std::optional<std::array<float, 2>> bounds;
     if (volumes.depthBounds && own_->quirks.depthBounds)
-      bounds = depthBounds(view, placement, volumeDistances(view, casters.bounds, counted, homogeneous, origin), groups);
+      bounds =
+          depthBounds(view, placement, volumeDistances(view, casters.bounds, counted, homogeneous, origin), groups);
     return LightPlan{
         .groups = groups,
         .twoSided = volumes.twoSided && own_->quirks.twoSidedStencil,

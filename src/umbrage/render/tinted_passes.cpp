@@ -20,9 +20,9 @@
 
 #include <bit>
 
-#include "umbrage/render/frame_data.hpp"
 #include "umbrage/gl/quirks.hpp"
 #include "umbrage/gl/read_back.hpp"
+#include "umbrage/render/frame_data.hpp"
 
 namespace umbrage::render {
 namespace {
@@ -426,7 +426,7 @@ void TintedPasses::addLit(const TintedFrame& frame, const TintedLight& light, To
     bindSurfaces(pass, frame);
     pass.storage(4, veilSums_);
     pass.storage(5, materials_);
-      pass.draw(screen_, 3);
+    pass.draw(screen_, 3);
     pass.publishStorage();  // nothing is written; but llvmpipe draws later, from buffers that the next light has filled anew
   };
   draw(programs_->lit, where(kMark, 0xff), block_);

@@ -106,8 +106,7 @@ class TintedPasses {
   [[nodiscard]] bool countsOpaque() const;
 
   std::unique_ptr<Programs> programs_;
-  gl::Buffer faces_, bits_, block_, darkBlock_, view_, shading_, pieces_, farPoints_, tints_, veilSums_,
-      materials_;
+  gl::Buffer faces_, bits_, block_, darkBlock_, view_, shading_, pieces_, farPoints_, tints_, veilSums_, materials_;
   std::array<gl::Buffer, 6> counted_;  ///< of opaque casters, then of veils
   gl::Buffer quads_, triangles_;       ///< indices of sides and of caps, piece by piece
   gl::VertexArray quadVertices_{quads_}, triangleVertices_{triangles_}, screen_;

@@ -24,7 +24,8 @@ struct VolumePart {
   shadow::Silhouette silhouette;
   int layers = 0;
   IndexRange sides, caps;
-  std::size_t indicesPerSide = 0;  ///< sides stand in the order of the silhouette's edges, each as often as its multiplicity says
+  std::size_t indicesPerSide =
+      0;  ///< sides stand in the order of the silhouette's edges, each as often as its multiplicity says
 };
 
 /// What one caster set throws under one light, ready to be drawn.
@@ -59,7 +60,7 @@ class VolumeMemo {
   struct Entry {
     std::weak_ptr<const shadow::CasterSet> casters;
     gl::Buffer positions;
-    std::unique_ptr<shadow::SilhouetteFinder> finder;  ///< does not own the casters, which would keep them alive
+    std::unique_ptr<shadow::SilhouetteFinder> finder;       ///< does not own the casters, which would keep them alive
     std::map<std::array<double, 5>, StoredVolume> volumes;  ///< by light, and whether they may end anywhere
   };
   [[nodiscard]] Result<Entry*> entryOf(const Casters& casters);

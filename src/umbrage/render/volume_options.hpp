@@ -29,6 +29,7 @@ struct VolumeOptions {
 };
 
 /// Infinite volumes of all casters, as the textbooks have them.
-inline constexpr VolumeOptions kPlainVolumes{.finite = false, .hiddenCasters = false, .hiddenParts = false, .depthBounds = false};
+inline constexpr VolumeOptions kPlainVolumes{
+    .finite = false, .hiddenCasters = false, .hiddenParts = false, .depthBounds = false};
 
 }  // namespace umbrage::render

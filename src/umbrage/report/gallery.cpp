@@ -114,7 +114,8 @@ std::string verdict(const GalleryEntry& entry) {
   if (!entry.error) return "<p>What it shows is taken as the truth.</p>\n";
   const GalleryError& error = *entry.error;
   if (error.differing == 0)
-    return fmt::format("<p class=\"good\">Every pixel{} equals {}.</p>\n", error.unknown > 0 ? " that it knows" : "", escaped(error.truth));
+    return fmt::format("<p class=\"good\">Every pixel{} equals {}.</p>\n", error.unknown > 0 ? " that it knows" : "",
+                       escaped(error.truth));
   const auto differ =
       fmt::format("{} of {} pixels differ from {} ({}), RMS error {:.4f}", error.differing, error.covered,
                   escaped(error.truth), percent(share(error.differing, error.covered)), error.rms);

@@ -17,7 +17,7 @@ using outline::Ring;
 constexpr double kMapSide = 960.0, kPanel = 320.0, kMargin = 24.0, kLine = 15.5;
 constexpr std::size_t kLettersInLine = 46, kLettersInTitle = 25;
 constexpr double kNeighbourhood = 25.0;  // metres about the features of a map that is about them
-constexpr double kRoom = 0.04;  // around what is drawn, of its size
+constexpr double kRoom = 0.04;           // around what is drawn, of its size
 
 struct Frame {
   Vec2 origin{0.0};  // of the paths, in the scene's coordinates

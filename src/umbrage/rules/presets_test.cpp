@@ -110,10 +110,9 @@ TEST(Presets, Din5034) {
 
 // TNO's norms as others cite them have no least altitude; the 10 degrees are The Hague's.
 TEST(Presets, TnoAndTheHague) {
-  for (const auto& [name, wanted, from, to, altitude] :
-       {std::tuple("tno-light", 2.0, day(2, 19), day(10, 21), 0.0),
-        std::tuple("tno-strict", 3.0, day(1, 21), day(11, 22), 0.0),
-        std::tuple("the-hague", 2.0, day(2, 19), day(10, 21), 10.0)}) {
+  for (const auto& [name, wanted, from, to, altitude] : {std::tuple("tno-light", 2.0, day(2, 19), day(10, 21), 0.0),
+                                                         std::tuple("tno-strict", 3.0, day(1, 21), day(11, 22), 0.0),
+                                                         std::tuple("the-hague", 2.0, day(2, 19), day(10, 21), 10.0)}) {
     Setting s{name, place(52.07, 4.3), zone("Europe/Amsterdam"), {}, sunAtLeast(wanted)};
     s.every = 5;
     EXPECT_EQ(seasonOf(s), season(from, to, 1));

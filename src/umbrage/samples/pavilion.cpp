@@ -7,8 +7,8 @@
 namespace umbrage::samples::detail {
 namespace {
 
-constexpr double kHeight = 4.0;  // of the panes
-constexpr double kColumn = 1.0;  // width of a pane
+constexpr double kHeight = 4.0;               // of the panes
+constexpr double kColumn = 1.0;               // width of a pane
 constexpr double kPost = 0.12, kRail = 0.08;  // thickness of the uprights and of what lies between
 // The case stands on feet too low to be seen: its floor of glass and the stone do not share a plane.
 constexpr double kFoot = 0.02;

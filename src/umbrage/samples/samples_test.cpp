@@ -129,7 +129,13 @@ const std::map<std::string, Expected>& expectations() {
         {}}},
       {"cornell", {98, 98, {-0.125, 0, 0}, {5.625, 5.625, 5.75}, 10523043275585144708ull, {"Lamp/Panel"}, {}}},
       {"still_life",
-       {60000, 70000, {-6.125, -6, 0}, {6, 6, 6}, 4984172173680779176ull, {"Still life/Floor", "Still life/Mirror"}, {}}}};
+       {60000,
+        70000,
+        {-6.125, -6, 0},
+        {6, 6, 6},
+        4984172173680779176ull,
+        {"Still life/Floor", "Still life/Mirror"},
+        {}}}};
   return all;
 }
 
@@ -138,7 +144,9 @@ class EverySample : public testing::TestWithParam<std::string> {
   [[nodiscard]] scene::Scene scene() const { return built(GetParam()); }
   [[nodiscard]] const Expected& expected() const { return expectations().at(GetParam()); }
 };
-INSTANTIATE_TEST_SUITE_P(Samples, EverySample, testing::Values("courtyard", "tower", "industrial", "building", "pavilion", "cornell", "still_life"),
+INSTANTIATE_TEST_SUITE_P(Samples, EverySample,
+                         testing::Values("courtyard", "tower", "industrial", "building", "pavilion", "cornell",
+                                         "still_life"),
                          [](const auto& each) { return each.param; });
 
 TEST_P(EverySample, IsAValidSceneInMetresWithZUp) {
@@ -274,7 +282,8 @@ TEST(Samples, AreListedByName) {
     EXPECT_FALSE(info.summary.empty());
     EXPECT_TRUE(make(info.name));
   }
-  EXPECT_THAT(names, testing::ElementsAre("courtyard", "tower", "industrial", "building", "pavilion", "cornell", "still_life"));
+  EXPECT_THAT(
+      names, testing::ElementsAre("courtyard", "tower", "industrial", "building", "pavilion", "cornell", "still_life"));
   const auto none = make("castle");
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().code, ErrorCode::usage);

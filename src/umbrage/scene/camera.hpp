@@ -19,7 +19,7 @@ enum class UpAxis { y, z };
 struct Camera {
   Vec3 eye{0.0};
   Vec3 target{0.0, 0.0, -1.0};
-  Vec3 up{0.0, 0.0, 1.0};  ///< any vector; where it is parallel to the view another is taken
+  Vec3 up{0.0, 0.0, 1.0};           ///< any vector; where it is parallel to the view another is taken
   Angle fovY = Angle::degrees(45);  ///< vertical field of view, in (0, 180) degrees
   int width = 1280;
   int height = 720;

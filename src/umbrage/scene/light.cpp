@@ -55,7 +55,9 @@ bool isValid(const Light& light) {
     bool operator()(const DiscLight& l) const {
       return properPosition(l.centre) && properDirection(l.direction) && positive(l.radius);
     }
-    bool operator()(const RectangleLight& l) const { return properPosition(l.centre) && properDirection(glm::cross(l.u, l.v)); }
+    bool operator()(const RectangleLight& l) const {
+      return properPosition(l.centre) && properDirection(glm::cross(l.u, l.v));
+    }
     bool operator()(const SphereLight& l) const { return properPosition(l.centre) && positive(l.radius); }
     bool operator()(const SunLight& l) const {
       return properDirection(l.direction) && l.radius > Angle() && l.radius < Angle::degrees(90);

@@ -18,9 +18,10 @@ struct Material {
   Vec3 colour{0.8};
   double opacity = 1.0;
   std::optional<Vec3> filter = {};  ///< what passes it, per channel in [0, 1], where that is not (1 - opacity) x colour
-  Vec3 emission{0.0};   ///< light that each side gives off by itself, the same to all directions; linear RGB, at least 0
+  Vec3 emission{0.0};  ///< light that each side gives off by itself, the same to all directions; linear RGB, at least 0
   double mirror = 0.0;  ///< the part of its opacity that reflects as a mirror does, in its colour, in [0, 1]
-  double ior = 1.0;     ///< index of refraction of what its closed surfaces hold, at least 1; 1: light that passes goes straight on
+  double ior =
+      1.0;  ///< index of refraction of what its closed surfaces hold, at least 1; 1: light that passes goes straight on
 };
 
 /// The part of the light that passes a surface, per channel: mostly its colour where it is not opaque.
@@ -46,8 +47,8 @@ struct Scene {
   std::string source;  ///< file name, for messages
   UpAxis up = UpAxis::z;
   double metresPerUnit = 1.0;
-  Angle northOffset;   ///< true north lies this much clockwise of the frame's north (see northVector)
-  std::string crs;     ///< coordinate reference system as the file names it, for example "EPSG:28992"; empty: none
+  Angle northOffset;  ///< true north lies this much clockwise of the frame's north (see northVector)
+  std::string crs;    ///< coordinate reference system as the file names it, for example "EPSG:28992"; empty: none
   std::vector<std::shared_ptr<const mesh::Mesh>> meshes;
   std::vector<Material> materials;  ///< never empty in a valid scene
   std::vector<Instance> instances;

@@ -25,8 +25,7 @@ void buildEdges(CasterSet& casters) {
     if (lexicographicallyLess(casters.positions[b], casters.positions[a])) std::swap(a, b);
     casters.edges.push_back({a, b, table.begin[e], table.begin[e + 1]});
   }
-  for (const mesh::EdgeUse& use : table.uses)
-    casters.uses.push_back({use.triangle, signOppositeCorner(use.opposite)});
+  for (const mesh::EdgeUse& use : table.uses) casters.uses.push_back({use.triangle, signOppositeCorner(use.opposite)});
   casters.report = mesh::inspect(casters.triangles, table);
   casters.report.windingFlips = 0;  // corners are sorted: the file's winding is gone
 }
@@ -43,7 +42,8 @@ std::vector<std::uint8_t> closedComponents(const CasterSet& casters) {
 
 std::vector<std::uint32_t> cornersOf(const CasterSet& casters, std::span<const std::uint32_t> triangles) {
   std::vector<std::uint32_t> corners;
-  for (const std::uint32_t t : triangles) corners.insert(corners.end(), casters.triangles[t].begin(), casters.triangles[t].end());
+  for (const std::uint32_t t : triangles)
+    corners.insert(corners.end(), casters.triangles[t].begin(), casters.triangles[t].end());
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   return corners;

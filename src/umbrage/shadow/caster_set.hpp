@@ -11,8 +11,8 @@ namespace umbrage::shadow {
 
 /// An edge of the casters with every triangle that uses it.
 struct CasterEdge {
-  std::uint32_t a, b;           ///< positions, a before b in lexicographic order of coordinates
-  std::uint32_t begin, end;     ///< its uses in CasterSet::uses
+  std::uint32_t a, b;        ///< positions, a before b in lexicographic order of coordinates
+  std::uint32_t begin, end;  ///< its uses in CasterSet::uses
 };
 
 /// A triangle's part in an edge: multiplicity of the edge = sum of sign x lightSide(triangle).
@@ -33,7 +33,8 @@ struct CasterSet {
   Vec3 origin{0.0};
   std::vector<Vec3f> positions;
   std::vector<mesh::Triangle> triangles;
-  std::vector<std::uint32_t> surfaceTriangle;  ///< per triangle: its index in the Surfaces (or the given list) it came from
+  std::vector<std::uint32_t>
+      surfaceTriangle;  ///< per triangle: its index in the Surfaces (or the given list) it came from
   std::vector<CasterEdge> edges;
   std::vector<CasterEdgeUse> uses;
   std::vector<std::uint32_t> componentOf;  ///< per triangle: its connected component

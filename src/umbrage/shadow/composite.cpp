@@ -57,7 +57,9 @@ image::RgbImage paint(const scene::Scene& scene, const scene::Surfaces& surfaces
   const Painter painter(scene, surfaces, lights, options);
   const scene::PixelRays rays = scene::pixelRays(camera);
   const Vec3 eye = camera.eye - surfaces.origin;
-  const auto code = [](double srgb) { return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(srgb, 0.0, 1.0))); };
+  const auto code = [](double srgb) {
+    return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(srgb, 0.0, 1.0)));
+  };
   const image::Rgb8 background{code(options.background.x), code(options.background.y), code(options.background.z)};
   const Vec3 far(decodeSrgb(background.r), decodeSrgb(background.g), decodeSrgb(background.b));
 
@@ -67,14 +69,16 @@ image::RgbImage paint(const scene::Scene& scene, const scene::Surfaces& surfaces
     std::vector<Face> faces;
     for (int x = 0; x < camera.width; ++x) {
       const std::uint32_t t = seen.triangle(x, y);
-      const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(x);
+      const std::size_t pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(x);
       const std::span<const Veil> before = veils.at(pixel);
       if (t == kNoTriangle && before.empty()) continue;
       const Vec3 ray = rays.through(x + 0.5, y + 0.5);
       Vec3 colour = far;
       if (t != kNoTriangle) {
         painter.turnTo(t, face);
-        colour = painter.colour(face, eye + double(seen.depth(x, y)) * ray, ray, [&](std::size_t i) { return maskValue(masks[i], x, y); });
+        colour = painter.colour(face, eye + double(seen.depth(x, y)) * ray, ray,
+                                [&](std::size_t i) { return maskValue(masks[i], x, y); });
       }
       if (!before.empty()) colour = veiled(colour, painter, eye, ray, before, veils.first[pixel], masks, faces);
       picture(x, y) = encode(colour);
@@ -112,7 +116,8 @@ image::RgbImage composite(const scene::Scene& scene, const scene::Surfaces& surf
 }
 
 image::RgbImage composite(const scene::Scene& scene, const scene::Surfaces& surfaces, const scene::Camera& camera,
-                          const Shading& shading, std::span<const scene::Light> lights, const CompositeOptions& options) {
+                          const Shading& shading, std::span<const scene::Light> lights,
+                          const CompositeOptions& options) {
   return paint(scene, surfaces, camera, shading.surface, shading.veils, lights, shading.masks, options);
 }
 

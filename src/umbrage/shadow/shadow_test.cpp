@@ -21,7 +21,8 @@
 namespace umbrage::shadow {
 namespace {
 
-const std::vector<Vec3f> kCubeCorners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+const std::vector<Vec3f> kCubeCorners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                      {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 const std::vector<mesh::Triangle> kCubeFaces{{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
                                              {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
 
@@ -182,7 +183,8 @@ int exactCrossings(const Soup& soup, const Vec3f& point, const Vec4& light, bool
             c = sub(toInt(soup.positions[t[2]]), p);
     const int here = sign(-det(a, b, c));  // side of the point itself
     V toLight = light.w == 0.0 ? l : sub(toInt(light), p);
-    const I lightVolume = light.w == 0.0 ? det(sub(b, a), sub(c, a), toLight) : det(sub(b, a), sub(c, a), sub(toLight, a));
+    const I lightVolume =
+        light.w == 0.0 ? det(sub(b, a), sub(c, a), toLight) : det(sub(b, a), sub(c, a), sub(toLight, a));
     const int there = sign(lightVolume);
     const int uv = sign(det(direction, a, b)), vw = sign(det(direction, b, c)), wu = sign(det(direction, c, a));
     if (there == 0) continue;  // edge-on to the light
@@ -217,7 +219,8 @@ Vec4 volumeVertex(const CasterSet& casters, const Vec4& light, std::uint32_t i) 
 
 // The volume's own winding number around a point: signed crossings of sides and near caps with a ray, or nothing when the ray
 // ends in a far cap, at infinity. Checks that the extruded surface encloses exactly the points that the counting rule says.
-std::optional<int> windingNumber(const CasterSet& casters, const Vec4& light, const Vec3& point, const Vec3& direction) {
+std::optional<int> windingNumber(const CasterSet& casters, const Vec4& light, const Vec3& point,
+                                 const Vec3& direction) {
   const ShadowVolume volume = extrude(casters, findSilhouette(casters, light));
   const auto det4 = [](const Vec4& a, const Vec4& b, const Vec4& c, const Vec4& d) {
     return glm::determinant(Mat4(a, b, c, d));
@@ -338,7 +341,8 @@ TEST(EyeCount, AsksBoxesForAllThatItMayTouchOrCount) {
 TEST(LayeringBound, IsExactForAStackAndForAFence) {
   Soup stack;
   for (std::uint32_t i = 0; i < 300; ++i) {
-    for (const Vec3f& c : {Vec3f(0, 0, 0), Vec3f(1, 0, 0), Vec3f(0, 1, 0)}) stack.positions.push_back(c + Vec3f(0, 0, float(i)));
+    for (const Vec3f& c : {Vec3f(0, 0, 0), Vec3f(1, 0, 0), Vec3f(0, 1, 0)})
+      stack.positions.push_back(c + Vec3f(0, 0, float(i)));
     stack.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   const CasterSet layers = buildCasters(stack.positions, stack.triangles);
@@ -362,7 +366,8 @@ TEST(LayeringBound, IsNotSpoiltByAStrayTriangle) {
     for (const Vec3f& c : kCubeCorners) fence.positions.push_back(c + Vec3f(2.0f * float(i), 0, 0));
     for (const mesh::Triangle& t : kCubeFaces) fence.triangles.push_back({8 * i + t[0], 8 * i + t[1], 8 * i + t[2]});
   }
-  for (const Vec3f& c : {Vec3f(3e7f, 0, 0), Vec3f(3e7f, 1e6f, 2e6f), Vec3f(2e7f, 1e6f, -4e6f)}) fence.positions.push_back(c);
+  for (const Vec3f& c : {Vec3f(3e7f, 0, 0), Vec3f(3e7f, 1e6f, 2e6f), Vec3f(2e7f, 1e6f, -4e6f)})
+    fence.positions.push_back(c);
   fence.triangles.push_back({800, 801, 802});
   const CasterSet posts = buildCasters(fence.positions, fence.triangles);
   EXPECT_LE(layeringBound(posts, findSilhouette(posts, {0, 1, 0.2, 0}), 0), 4);
@@ -409,7 +414,9 @@ TEST(Facing, IsTheSameSideForEyeAndLight) {
   s.materials = {{}};
   s.instances = {{"t", 0}};
   const auto surfaces = scene::flatten(s);
-  const auto facing = [&](const Vec4& eye, const Vec4& light) { return visibleSideFacesLight(surfaces, eye, light)[0]; };
+  const auto facing = [&](const Vec4& eye, const Vec4& light) {
+    return visibleSideFacesLight(surfaces, eye, light)[0];
+  };
   EXPECT_EQ(facing({0, 0, 5, 1}, {0, 0, 1, 0}), 1);
   EXPECT_EQ(facing({0, 0, -5, 1}, {0, 0, 1, 0}), 0);
   EXPECT_EQ(facing({0, 0, -5, 1}, {0, 0, -9, 1}), 1);

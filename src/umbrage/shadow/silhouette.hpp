@@ -18,10 +18,10 @@ struct SilhouetteEdge {
 
 /// The silhouette of a caster set as one light sees it.
 struct Silhouette {
-  Vec4 light{0.0};                     ///< homogeneous, relative to CasterSet::origin
+  Vec4 light{0.0};  ///< homogeneous, relative to CasterSet::origin
   /// Per triangle: lightSide of its sorted corners, -1 or +1, when it counts; 0 when it is edge-on to the light or left out.
   std::vector<std::int8_t> side;
-  std::vector<SilhouetteEdge> edges;   ///< in the order of CasterSet::edges
+  std::vector<SilhouetteEdge> edges;  ///< in the order of CasterSet::edges
   std::size_t edgesTested = 0;
   std::string_view finder = "brute_force";  ///< who found it, as name(FinderKind) spells it; static
 };
@@ -39,10 +39,12 @@ struct SilhouetteOptions {
 /// Law: for every closed surface bounding a set of triangles the multiplicities cancel, so the volume is watertight whatever the
 /// topology and whatever rounding did to a sign.
 /// Source: Aldridge and Woods, robust geometry-independent shadow volumes, 2004; Kim, Kim and Turk, 2008.
-[[nodiscard]] Silhouette findSilhouette(const CasterSet& casters, const Vec4& light, const SilhouetteOptions& options = {});
+[[nodiscard]] Silhouette findSilhouette(const CasterSet& casters, const Vec4& light,
+                                        const SilhouetteOptions& options = {});
 
 /// Silhouette::side alone: the side of every triangle that counts.
-[[nodiscard]] std::vector<std::int8_t> findSides(const CasterSet& casters, const Vec4& light, const SilhouetteOptions& options = {});
+[[nodiscard]] std::vector<std::int8_t> findSides(const CasterSet& casters, const Vec4& light,
+                                                 const SilhouetteOptions& options = {});
 
 /// The silhouette of the triangles whose `side` is not 0, which must be that of lightSide.
 [[nodiscard]] Silhouette silhouetteOf(const CasterSet& casters, const Vec4& light, std::vector<std::int8_t> side);

@@ -23,13 +23,13 @@ namespace umbrage::shadow {
 
 /// What a technique is and promises.
 struct Traits {
-  std::string name;              ///< as the command line spells it: "zfail"
-  std::string summary;           ///< one sentence
-  bool soft = false;             ///< takes area lights
-  bool tinted = false;           ///< knows coloured transparent casters
-  bool needsClosed = false;      ///< exact for closed casters only
-  bool needsGraphics = false;    ///< runs on OpenGL
-  int edgeTolerancePx = 1;       ///< pixels this near to a true edge may differ from the truth
+  std::string name;            ///< as the command line spells it: "zfail"
+  std::string summary;         ///< one sentence
+  bool soft = false;           ///< takes area lights
+  bool tinted = false;         ///< knows coloured transparent casters
+  bool needsClosed = false;    ///< exact for closed casters only
+  bool needsGraphics = false;  ///< runs on OpenGL
+  int edgeTolerancePx = 1;     ///< pixels this near to a true edge may differ from the truth
   /// Pixels may differ from the truth anywhere, fewer with more work: its error is a number to be measured, not a promise to be judged.
   bool approximate = false;
 };
@@ -79,15 +79,16 @@ struct SoftSampling {
 struct Frame {
   scene::Camera camera;
   std::span<const scene::Light> lights;
-  FinderKind silhouettes = FinderKind::automatic;  ///< who finds them, where the technique needs silhouettes; changes no pixel
+  FinderKind silhouettes =
+      FinderKind::automatic;  ///< who finds them, where the technique needs silhouettes; changes no pixel
   VolumeFill fill = VolumeFill::reduced;
   std::optional<Extrusion> extrusion = {};  ///< none: as the technique was made
   /// So many veils of each pixel, the nearest, are lit each by itself; those behind them as the last of these, and without any shadow when it is 0. None: all
   /// are lit by themselves. For techniques that are `tinted`.
   std::optional<int> veilLayers = {};
-  SoftSampling soft = {};  ///< for techniques that are `soft`; to all others a light is its centre
+  SoftSampling soft = {};     ///< for techniques that are `soft`; to all others a light is its centre
   bool surfaceWanted = true;  ///< false: Shading::surface may be left empty, which saves time
-  bool detailed = false;   ///< LightStats::choices and volumeFragments are wanted, which take time of their own
+  bool detailed = false;      ///< LightStats::choices and volumeFragments are wanted, which take time of their own
 };
 
 struct PhaseTime {
@@ -131,12 +132,12 @@ struct LightStats {
   std::size_t planes = 0;      ///< that shadows were projected onto, by techniques that do so
   std::size_t shadowMaps = 0;  ///< that were drawn, by techniques that look them up
   std::size_t mapTexels = 0;   ///< of all of them
-  std::string finder;  ///< who found the silhouette; empty when none was needed
+  std::string finder;          ///< who found the silhouette; empty when none was needed
   // What was left out, since it changes no pixel:
-  std::size_t castersHidden = 0;   ///< components wholly in the shadow of a convex one
-  std::size_t castersBehind = 0;   ///< components whose volumes touch no receiver's line of sight
-  std::size_t sidesBehind = 0;     ///< further single sides
-  std::size_t endlessCasters = 0;  ///< components whose volumes no plane can end
+  std::size_t castersHidden = 0;       ///< components wholly in the shadow of a convex one
+  std::size_t castersBehind = 0;       ///< components whose volumes touch no receiver's line of sight
+  std::size_t sidesBehind = 0;         ///< further single sides
+  std::size_t endlessCasters = 0;      ///< components whose volumes no plane can end
   std::optional<SoftStats> soft = {};  ///< of lights with an extent, by techniques that are `soft`
   // When the frame is `detailed`, of techniques of shadow volumes:
   std::vector<CasterChoice> choices;  ///< per component

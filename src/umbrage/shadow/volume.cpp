@@ -101,8 +101,7 @@ ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, con
   const std::size_t perEdge = directional && !options.endsAnywhere && options.reach == nullptr ? 3 : 6;
   if (!options.keepSide) volume.sides.reserve(silhouette.edges.size() * perEdge);
   for (const SilhouetteEdge& edge : silhouette.edges)
-    if (chosen(edge.component) && (!options.keepSide || options.keepSide(edge)))
-      append(edge);
+    if (chosen(edge.component) && (!options.keepSide || options.keepSide(edge))) append(edge);
   if (!options.caps) return volume;
   if (options.components.empty()) volume.caps.reserve(casters.triangles.size() * perEdge);
   for (std::uint32_t t = 0; t < casters.triangles.size(); ++t)

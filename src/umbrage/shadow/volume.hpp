@@ -20,7 +20,7 @@ namespace umbrage::shadow {
 ///    depth test (no comparison, no z-fighting with the caster or with surfaces that lie in its plane).
 struct ShadowVolume {
   std::vector<std::uint32_t> sides;  ///< triangles
-  std::vector<std::uint32_t> caps;   ///< triangles: near caps, and far caps where the far vertices are not all one point
+  std::vector<std::uint32_t> caps;  ///< triangles: near caps, and far caps where the far vertices are not all one point
 
   [[nodiscard]] std::size_t triangleCount() const { return (sides.size() + caps.size()) / 3; }
 };
@@ -45,7 +45,8 @@ struct ExtrudeOptions {
 /// Whether a point, relative to the origin of the casters, lies in the plane of any of their triangles (liesInPlane).
 [[nodiscard]] bool isInAFacesPlane(const CasterSet& casters, const Vec3& point);
 
-[[nodiscard]] ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette, const ExtrudeOptions& options = {});
+[[nodiscard]] ShadowVolume extrude(const CasterSet& casters, const Silhouette& silhouette,
+                                   const ExtrudeOptions& options = {});
 
 /// The caster surfaces between a point and the light.
 struct SurfaceCount {

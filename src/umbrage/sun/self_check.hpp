@@ -46,9 +46,9 @@ template <class Measure>
 }
 
 struct SelfCheckOptions {
-  std::size_t moments = 5000;   ///< spread evenly over the Earth, the years and the hours; the same at each run
-  int firstYear = 1972;         ///< [1972, 2100]: since then the clock has whole leap seconds
-  int lastYear = 2050;          ///< [firstYear, 2100], with it
+  std::size_t moments = 5000;  ///< spread evenly over the Earth, the years and the hours; the same at each run
+  int firstYear = 1972;        ///< [1972, 2100]: since then the clock has whole leap seconds
+  int lastYear = 2050;         ///< [firstYear, 2100], with it
 };
 
 /// sunPosition and sunDay held against sunPositionByObserver.

@@ -20,7 +20,7 @@ TEST(SelfCheck, TheSunIsErfasWhereverAndWheneverItIsAskedFor) {
 TEST(SelfCheck, DoesNotHoldWhereOneOfItsFiguresIsTooLarge) {
   SelfCheck check;
   EXPECT_TRUE(holds(check));
-  for (Deviation SelfCheck::* figure :
+  for (Deviation SelfCheck::*figure :
        {&SelfCheck::direction, &SelfCheck::refraction, &SelfCheck::noon, &SelfCheck::riseAndSet}) {
     SelfCheck wrong = check;
     (wrong.*figure).worst = 0.5;

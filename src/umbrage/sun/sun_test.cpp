@@ -14,9 +14,7 @@ using std::chrono::sys_days;
 
 constexpr double kPi = std::numbers::pi;
 
-Place place(double latitude, double longitude) {
-  return {Angle::degrees(latitude), Angle::degrees(longitude)};
-}
+Place place(double latitude, double longitude) { return {Angle::degrees(latitude), Angle::degrees(longitude)}; }
 Instant utc(int y, unsigned m, unsigned d, std::chrono::milliseconds time = 0ms) {
   return sys_days(std::chrono::year(y) / std::chrono::month(m) / std::chrono::day(d)) + time;
 }

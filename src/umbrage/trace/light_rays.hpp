@@ -56,7 +56,7 @@ class LightRays {
 
   const Occlusion& occlusion_;
   Vec4 light_;
-  double cut_ = 0.0;                      ///< rays end this far from the light, plus a part of their length
+  double cut_ = 0.0;             ///< rays end this far from the light, plus a part of their length
   std::vector<Near> nearLight_;  ///< casters that the shortened rays may miss, the nearest first
 };
 

@@ -55,7 +55,6 @@ TEST(Occlusion, OfNothingMeetsNothing) {
   const Occlusion nothing = make(shapes::scene({}));
   EXPECT_FALSE(nothing.nearest({0, 0, 0}, {1, 0, 0}));
   EXPECT_EQ(nothing.meetsCaster(oneRay({0, 0, 0}, {1, 0, 0}, 9)), 0u);
-
 }
 
 TEST(Occlusion, SeesBothSidesAndBothKindsOfSurfaces) {

@@ -8,12 +8,13 @@
 namespace umbrage::io::detail {
 namespace {
 
-constexpr std::array<std::string_view, 18> kExtensions = {"gltf", "glb", "obj", "ply", "stl",  "off",  "3ds",
-                                                          "ifc",  "x3d", "iv",  "wrl", "vrml", "json", "jsonl", "geojson", "tif", "tiff", "asc"};
-constexpr std::array<Format, 18> kFormats = {Format::gltf,     Format::gltf,       Format::obj,      Format::ply,
-                                             Format::stl,      Format::off,        Format::threeDs,  Format::ifc,
-                                             Format::x3d,      Format::inventor,   Format::inventor, Format::inventor,
-                                             Format::cityJson, Format::cityJsonSeq, Format::geoJson, Format::raster, Format::raster, Format::raster};
+constexpr std::array<std::string_view, 18> kExtensions = {"gltf", "glb",   "obj",     "ply", "stl",  "off",
+                                                          "3ds",  "ifc",   "x3d",     "iv",  "wrl",  "vrml",
+                                                          "json", "jsonl", "geojson", "tif", "tiff", "asc"};
+constexpr std::array<Format, 18> kFormats = {
+    Format::gltf,     Format::gltf,        Format::obj,     Format::ply,      Format::stl,      Format::off,
+    Format::threeDs,  Format::ifc,         Format::x3d,     Format::inventor, Format::inventor, Format::inventor,
+    Format::cityJson, Format::cityJsonSeq, Format::geoJson, Format::raster,   Format::raster,   Format::raster};
 
 }  // namespace
 

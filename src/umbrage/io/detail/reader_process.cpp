@@ -56,9 +56,10 @@ std::optional<fs::path> findReader(const ReaderProgram& reader) {
   if (const char* named = std::getenv(reader.variable); named != nullptr && *named != '\0') return fs::path(named);
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (const fs::path& folder :
-       {program, program / UMBRAGE_READER_FROM_PROGRAM, fs::path(UMBRAGE_READERS_INSTALLED), fs::path(UMBRAGE_READERS_BUILT)})
-    if (const fs::path candidate = folder / reader.name; candidate.is_absolute() && ::access(candidate.c_str(), X_OK) == 0)
+  for (const fs::path& folder : {program, program / UMBRAGE_READER_FROM_PROGRAM, fs::path(UMBRAGE_READERS_INSTALLED),
+                                 fs::path(UMBRAGE_READERS_BUILT)})
+    if (const fs::path candidate = folder / reader.name;
+        candidate.is_absolute() && ::access(candidate.c_str(), X_OK) == 0)
       return candidate;
   return std::nullopt;
 }
@@ -221,9 +222,9 @@ Result<std::vector<std::byte>> readHandover(int fd, std::size_t limit) {
 Result<std::vector<std::byte>> runReader(const ReaderJob& job) {
   const auto reader = findReader(job.program);
   if (!reader)
-    return fail(ErrorCode::unsupported,
-                std::string("the program ") + job.program.name + " is not installed beside this one; set " +
-                    job.program.variable + " to where it is");
+    return fail(ErrorCode::unsupported, std::string("the program ") + job.program.name +
+                                            " is not installed beside this one; set " + job.program.variable +
+                                            " to where it is");
   const Descriptor handover = aboveStandard(::memfd_create("umbrage-handover", MFD_CLOEXEC));
   std::array<int, 2> ends{-1, -1};
   if (handover.get() < 0 || ::pipe2(ends.data(), O_CLOEXEC) != 0)

@@ -69,7 +69,7 @@ std::vector<mesh::Triangle> triangulateWithGeos(const PlanePolygon& polygon) {
   const GeosGeometry whole = makePolygon(context.get(), polygon);
   if (whole == nullptr) return {};
   const GeosGeometry parts(GEOSConstrainedDelaunayTriangulation_r(context.get(), whole.get()),
-                       DestroyGeometry{context.get()});
+                           DestroyGeometry{context.get()});
   if (parts == nullptr) return {};
   std::vector<mesh::Triangle> triangles;
   const int count = GEOSGetNumGeometries_r(context.get(), parts.get());

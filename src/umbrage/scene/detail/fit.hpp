@@ -35,7 +35,8 @@ class Fit {
 
 /// The camera of frameAll for the points that `addAll` adds to a sink of points; `bounds` holds them all.
 template <class AddAll>
-Camera frame(const Box3& bounds, UpAxis up, Angle northOffset, Angle fovY, int width, int height, const AddAll& addAll) {
+Camera frame(const Box3& bounds, UpAxis up, Angle northOffset, Angle fovY, int width, int height,
+             const AddAll& addAll) {
   constexpr double filled = 0.94;   // the part of the picture that is filled
   constexpr double outside = 1.05;  // how far out the camera stays, in radii of the scene
   Camera camera;

@@ -17,9 +17,8 @@ namespace {
 constexpr std::array kKinds{FinderKind::automatic, FinderKind::bruteForce, FinderKind::bruteForceSimd,
                             FinderKind::hextree,   FinderKind::hough,      FinderKind::potentiallyVisible,
                             FinderKind::gpu};
-constexpr std::array<std::string_view, 7> kNames{"auto",    "brute_force", "brute_force_simd",
-                                                 "hextree", "hough",       "potentially_visible",
-                                                 "gpu"};
+constexpr std::array<std::string_view, 7> kNames{
+    "auto", "brute_force", "brute_force_simd", "hextree", "hough", "potentially_visible", "gpu"};
 
 }  // namespace
 

@@ -20,7 +20,7 @@ enum class FinderKind {
   hextree,         ///< a tree over the edges in the dual space of their planes
   hough,           ///< a tree over the edges in Hough space
   potentiallyVisible,  ///< an octree over the places of a point light, with the edges that each may have on its silhouette
-  gpu,                 ///< every edge, by compute shaders (render::GpuFinder): only techniques that draw with OpenGL have it
+  gpu,  ///< every edge, by compute shaders (render::GpuFinder): only techniques that draw with OpenGL have it
 };
 
 /// Those that makeFinder makes.

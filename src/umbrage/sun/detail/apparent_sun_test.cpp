@@ -23,7 +23,8 @@ Vec3 bySeries(Instant instant) {
 // The series are summed at noon of a few days; between, nothing of them is lost.
 TEST(ApparentSun, IsTheSeriesEverywhereBetween) {
   double worst = 0.0;
-  for (const Instant first : {day(1900, 1, 1), day(1971, 12, 30), day(2016, 12, 29), day(2026, 6, 1), day(2100, 12, 20)})
+  for (const Instant first :
+       {day(1900, 1, 1), day(1971, 12, 30), day(2016, 12, 29), day(2026, 6, 1), day(2100, 12, 20)})
     for (auto t = 0min; t < 8 * 24h; t += 37min)
       worst = std::max(worst, glm::length(apparentSun(first + t) - bySeries(first + t)));
   EXPECT_LT(worst, 1e-11);

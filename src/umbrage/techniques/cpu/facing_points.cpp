@@ -104,7 +104,7 @@ std::uint32_t FacingPoints::exactlyLit(const Faces& faces, std::uint32_t lanes) 
 
 // The points that the pixels' centres show, in double precision.
 UMBRAGE_VECTOR_UNITS void FacingPoints::placePoints(const Seen8& seen, const Faces& faces, int x, int y,
-                                             trace::SurfacePoints8& points) const {
+                                                    trace::SurfacePoints8& points) const {
   const Vec3 corner = rays_.through(x + 0.5, y + 0.5), eye = eye_;
   const double precision = precision_;
   for (std::size_t k = 0; k < 8; ++k) {

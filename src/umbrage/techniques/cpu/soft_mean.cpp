@@ -35,7 +35,8 @@ Result<void> SoftMean::add(std::span<const shadow::LightSample> samples, std::sp
     }
   }
   auto done = parallel::forEach(camera_.height, [&](int y) {
-    for (std::size_t i = 0; i < samples.size(); ++i) addTo(halves_[shadow::halfOf(samples_ + i)], samples[i], masks[i], y);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      addTo(halves_[shadow::halfOf(samples_ + i)], samples[i], masks[i], y);
   });
   for (std::size_t i = 0; i < samples.size(); ++i) ++halves_[shadow::halfOf(samples_ + i)].samples;
   samples_ += samples.size();
