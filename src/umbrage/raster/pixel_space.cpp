@@ -1,7 +1,10 @@
 #include "umbrage/raster/pixel_space.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 #include "umbrage/math/predicates.hpp"
 #include "umbrage/parallel/for_each.hpp"
@@ -16,17 +19,31 @@ std::uint8_t outcode(const Vec3& p, double width, double height) {
                                    (p.y > height * p.z) << 3 | (p.z < 0.0) << 4);
 }
 
-constexpr double kLeast = 0x1p-40;  // of the scene
+constexpr double kLeast = 0x1p-40;     // of what the eye touches
+constexpr double kRounding = 0x1p-50;  // of the eye's own place
 
-// Whether a point lies on one of the triangles, or within `least` of their boxes and in their planes.
-bool touches(const scene::Surfaces& surfaces, const Vec3& point, double least) {
-  const Vec3 low = point - least, high = point + least;
-  return std::ranges::any_of(surfaces.triangles, [&](const mesh::Triangle& t) {
-    const Vec3 a(surfaces.positions[t[0]]), b(surfaces.positions[t[1]]), c(surfaces.positions[t[2]]);
-    for (int k = 0; k < 3; ++k)
-      if (std::max({a[k], b[k], c[k]}) < low[k] || std::min({a[k], b[k], c[k]}) > high[k]) return false;
-    return liesInPlane(a, b, c, point);
-  });
+// Whether a point lies on a triangle, as far as double arithmetic can tell. One hardly above it is above it.
+bool touches(std::array<Vec3, 3> corners, const Vec3& point) {
+  const double least = kRounding * glm::length(point);
+  for (int k = 0; k < 3; ++k)
+    if (std::max({corners[0][k], corners[1][k], corners[2][k]}) < point[k] - least ||
+        std::min({corners[0][k], corners[1][k], corners[2][k]}) > point[k] + least)
+      return false;
+  std::ranges::sort(corners,
+                    [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
+  return lightSide(corners[0], corners[1], corners[2], Vec4(point, 1.0)) == 0;
+}
+
+// How large what a point touches is, the smallest of it; infinite where it touches nothing.
+double touchedSize(const scene::Surfaces& surfaces, const Vec3& point) {
+  double size = std::numeric_limits<double>::infinity();
+  for (const mesh::Triangle& t : surfaces.triangles) {
+    const std::array<Vec3, 3> c{surfaces.positions[t[0]], surfaces.positions[t[1]], surfaces.positions[t[2]]};
+    if (touches(c, point))
+      size =
+          std::min(size, std::max({glm::length(c[0] - point), glm::length(c[1] - point), glm::length(c[2] - point)}));
+  }
+  return size;
 }
 
 }  // namespace
@@ -44,8 +61,11 @@ PixelSpace pixelSpace(const scene::Camera& camera, const Vec3& origin, double ra
 
 PixelSpace pixelSpace(const scene::Camera& camera, const scene::Surfaces& surfaces) {
   PixelSpace space = pixelSpace(camera, surfaces.origin, surfaces.bounds.radius());
-  const double least = kLeast / space.scale;
-  if (touches(surfaces, space.eye, least)) space.eye += least * Vec3(0.3617, 0.4771, 0.8009);
+  const double size = touchedSize(surfaces, space.eye);
+  if (std::isinf(size)) return space;
+  const double way =
+      std::max({kLeast * size, 2.0 * kRounding * glm::length(space.eye), size > 0.0 ? 0.0 : kLeast / space.scale});
+  space.eye += way * Vec3(0.3617, 0.4771, 0.8009);
   return space;
 }
 

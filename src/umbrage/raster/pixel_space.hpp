@@ -30,7 +30,7 @@ struct PixelSpace {
 
 /// `origin`: that of what will be mapped. `radius`: of the scene, in scene units, for the scale.
 [[nodiscard]] PixelSpace pixelSpace(const scene::Camera& camera, const Vec3& origin, double radius);
-/// Of surfaces. An eye on one of them, from where its corners have no direction or its plane no side, is moved by 2^-40 of the scene.
+/// Of surfaces. An eye on one of them, from where its corners have no direction or its plane no side, is moved by 2^-40 of the triangle's size.
 [[nodiscard]] PixelSpace pixelSpace(const scene::Camera& camera, const scene::Surfaces& surfaces);
 
 /// The positions of a scene for one camera.

@@ -22,6 +22,7 @@
 
 #include "umbrage/gl/quirks.hpp"
 #include "umbrage/gl/read_back.hpp"
+#include "umbrage/render/detail/tinted_faces.hpp"
 #include "umbrage/render/frame_data.hpp"
 
 namespace umbrage::render {
@@ -32,40 +33,6 @@ constexpr std::size_t kVeilSumBytes = 16;  // likewise
 // Of the stencil: the highest bit marks where something is to be summed up, the next where there are veils, the others count.
 constexpr std::uint8_t kMark = 0x80, kCountBits = 0x3f;
 static_assert(kTintedStencil == kCountBits && (kMark | kVeiledBit | kCountBits) == 0xff);
-
-/// A surface as the shaders know it, as std430 lays it out.
-struct Face {
-  Vec4f normal;  ///< unit; material as the bits of w
-  Vec4f corner;
-  std::array<std::int32_t, 4> filter;
-};
-
-std::vector<Face> facesOf(const shadow::Geometry& geometry) {
-  const scene::Surfaces& surfaces = geometry.surfaces;
-  std::vector<Face> faces;
-  faces.reserve(surfaces.triangles.size());
-  for (std::uint32_t t = 0; t < surfaces.triangles.size(); ++t) {
-    const Vec3 normal = surfaces.normal(t);
-    const double length = glm::length(normal);
-    const shadow::FilterSum& filter = geometry.filters.of(t);
-    faces.push_back(
-        {Vec4f(length > 0.0 ? Vec3f(normal / length) : Vec3f(0.0f), std::bit_cast<float>(surfaces.materials[t])),
-         Vec4f(Vec3f(surfaces.corner(t, 0)), 1.0f),
-         {filter[0], filter[1], filter[2], geometry.filters.isVeil(t) ? 1 : 0}});
-  }
-  return faces;
-}
-
-// Four bits a triangle, eight to a word, from the lowest.
-std::vector<std::uint32_t> packLightBits(std::span<const std::uint8_t> facing, std::span<const std::int8_t> side) {
-  std::vector<std::uint32_t> words((facing.size() + 7) / 8);
-  for (std::size_t t = 0; t < facing.size(); ++t) {
-    std::uint32_t bits = facing[t] != 0 ? 1 : 0;
-    if (!side.empty() && side[t] != 0) bits |= side[t] > 0 ? 2u : 4u;
-    words[t / 8] |= bits << (4 * (t % 8));
-  }
-  return words;
-}
 
 std::vector<std::uint32_t> pattern(std::size_t pieces, std::span<const std::uint32_t> corners) {
   std::vector<std::uint32_t> indices;
@@ -123,7 +90,7 @@ TintedPasses::~TintedPasses() = default;
 
 Result<std::unique_ptr<TintedPasses>> TintedPasses::make(const shadow::Geometry& geometry) {
   std::unique_ptr<TintedPasses> passes(new TintedPasses);
-  const std::vector<Face> faces = facesOf(geometry);
+  const std::vector<detail::Face> faces = detail::facesOf(geometry);
   if (auto done = setStorage(passes->faces_, std::as_bytes(std::span(faces)), "triangles"); !done)
     return tl::unexpected(done.error());
   return passes;
@@ -150,7 +117,7 @@ Result<void> TintedPasses::setLight(const TintedFrame& frame, const TintedLight&
   if (kTintBytes * surfaces > gl::findQuirks().maxStorageBytes)
     return fail(ErrorCode::device, "the picture shows more surfaces than a buffer of this driver holds tints for");
   for (const auto& done : {view_.setOne(light.view), shading_.setOne(light.shading),
-                           bits_.setAll(packLightBits(facing, side)), tints_.reserve(kTintBytes * surfaces),
+                           bits_.setAll(detail::packLightBits(facing, side)), tints_.reserve(kTintBytes * surfaces),
                            veilSums_.reserve(frame.lightsVeils() ? kVeilSumBytes * frame.veils.count() : 0)})
     if (!done) return done;
   for (std::size_t i = 0; i < counted_.size(); ++i)
