@@ -81,7 +81,11 @@ double since(std::chrono::steady_clock::time_point start) {
 
 Times once(shadow::Technique& technique, const Case& c, const shadow::Geometry& geometry, std::optional<int> layers) {
   const auto start = std::chrono::steady_clock::now();
-  const auto shading = technique.shade({.camera = c.camera, .lights = {&c.light, 1}, .veilLayers = layers});
+  // The eye moves, hardly, so that nothing of the picture before is kept.
+  static int frame = 0;
+  scene::Camera camera = c.camera;
+  camera.eye += 1e-9 * (++frame % 2) * (camera.target - camera.eye);
+  const auto shading = technique.shade({.camera = camera, .lights = {&c.light, 1}, .veilLayers = layers});
   const double masks = since(start);
   if (!shading) return std::puts(shading.error().text().c_str()), Times{};
   const auto picture = shadow::composite(c.scene, geometry.surfaces, c.camera, *shading, {&c.light, 1});
