@@ -12,8 +12,8 @@ constexpr std::size_t kMostLookedAt = 256;  // light with more suspicious veils 
 constexpr int kSamples = 32;                // a pixel, along each axis
 constexpr double kSnap = 0x1p-8;            // pixels to which rasterisers snap corners
 constexpr int kSnapSamples = 16;
-constexpr float kSameDepth =
-    0x1p-12f;  // relative: so much it changes within the snapping where seen at a grazing angle
+// Relative: so much depth changes within the snapping, where it is seen at a grazing angle.
+constexpr float kSameDepth = 0x1p-12f;
 
 bool differ(const shadow::Tint& a, const shadow::Tint& b) {
   const Vec3 apart = glm::abs(shadow::partsOf(a) - shadow::partsOf(b));

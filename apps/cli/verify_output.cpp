@@ -329,7 +329,7 @@ std::string verdictCsv(const VerdictReport& r) {
           fmt::format("{},{},,,,,,,,,{},,,,,,{:.10g},{:.10g}\n", csvText(f.group), csvText(requirementOf(r, f).name),
                       f.passes ? 1 : 0, *f.newShare, *requirementOf(r, f).mostNew);
     else if (f.outlines)
-      text += fmt::format("{},{},,,,,,,,,0,{:.4f},0.0000,{:.4f},{},{},,\n", csvText(f.group),
+      text += fmt::format("{},{},,,,,,,,,0,{:.7f},0.0000000,{:.7f},{},{},,\n", csvText(f.group),
                           csvText(requirementOf(r, f).name), -f.margin, f.margin, sun::dateText(f.outlines->date),
                           spansText(r, f.outlines->spans));
     for (const ReceiverResult& result : f.receivers) {

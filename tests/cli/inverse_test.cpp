@@ -11,9 +11,7 @@ namespace umbrage::cli_test {
 namespace {
 
 using testing::AllOf;
-using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 using testing::StartsWith;
 using Json = nlohmann::json;
 

@@ -1,8 +1,6 @@
 #include <gmock/gmock.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "verify_fixture.hpp"
 
@@ -172,7 +170,7 @@ TEST_F(Verify, NoNewShadowIsHeldByOutlines) {
   const Json json = Json::parse(run(words, {"--json"}).out);
   EXPECT_EQ(json.at("findings").at(0).at("outlines").at("days"), 3);
   EXPECT_EQ(run(words, {"-o", file("o.csv")}).code, 1);
-  EXPECT_THAT(read("o.csv"), HasSubstr("-6.0000,2026-09-22,10:00:00-16:00:00"));
+  EXPECT_THAT(read("o.csv"), HasSubstr("-6.0000000,2026-09-22,10:00:00-16:00:00"));
   EXPECT_EQ(run(words, {"-o", file("o.html")}).code, 1);
   EXPECT_THAT(read("o.html"), HasSubstr("the exact outlines show new shadow"));
 }

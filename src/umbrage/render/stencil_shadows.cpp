@@ -164,6 +164,12 @@ Member memberOf(const PosedCasters& posed, const StoredVolume& volume, const Vol
   return m;
 }
 
+// Only faces about the eye fill its view when they are tilted, and they lie in the casters' bounds.
+bool isWithin(const Box3& box, const Vec3& eye) {
+  const double slack = 0x1p-20 * box.radius();
+  return glm::all(glm::greaterThanEqual(eye, box.min - slack)) && glm::all(glm::lessThanEqual(eye, box.max + slack));
+}
+
 // What the casters at place i of a call add to it.
 struct Work {
   VolumeMemo& memo;
@@ -217,7 +223,9 @@ struct Work {
   [[nodiscard]] Result<void> leaveOutCapsEdgeOn(const shadow::CasterSet& casters, const Vec3& eye, PlaceData& place,
                                                 std::vector<Member>& members) const {
     const auto hasCaps = [](const Member& m) { return m.byZFail && m.caps.count > 0; };
-    if (std::none_of(members.begin(), members.end(), hasCaps) || !shadow::isInAFacesPlane(casters, eye)) return {};
+    if (std::none_of(members.begin(), members.end(), hasCaps) || !isWithin(casters.bounds, eye) ||
+        !shadow::isInAFacesPlane(casters, eye))
+      return {};
     std::vector<std::uint32_t> indices;
     for (Member& m : members) {
       if (!hasCaps(m)) continue;

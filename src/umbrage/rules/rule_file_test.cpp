@@ -37,7 +37,7 @@ TEST(RuleFile, contradictionsAndSlipsAreNamed) {
   const std::tuple<std::string, const char*> wrong[] = {
       {"{", "is not JSON"},
       {"[]", "an object"},
-      {std::string(200, '['), "nested too deeply"},
+      {std::string(200, '['), "nested deeper than 64 levels"},
       {with("\"08:00\"", "\"17:00\""), "requirements[0].window: the window is empty"},
       {with("\"08:00\"", "\"8 h\""), "requirements[0].window.from"},
       {with("\"clock\":\"solar\",", ""), "window.clock: is missing"},

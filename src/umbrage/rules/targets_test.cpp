@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <set>
 
 #include "umbrage/geo/projection.hpp"
@@ -19,7 +18,6 @@ namespace {
 using namespace testing_boxes;
 using testing::HasSubstr;
 
-const sun::Place kBeijing = place(39.9, 116.4);
 const auto kDay = std::chrono::year(2026) / 1 / 1;
 
 TEST(Targets, areasAreSharedOutByTheirSize) {

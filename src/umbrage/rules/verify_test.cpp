@@ -2,12 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <set>
 
-#include "umbrage/geo/projection.hpp"
 #include "umbrage/outline/combine.hpp"
 #include "umbrage/rules/rule_file.hpp"
 #include "umbrage/rules/test_boxes.hpp"

@@ -45,8 +45,8 @@ struct LightMask {
 /// How two masks of one view differ.
 struct MaskDifference {
   std::size_t differing = 0;  ///< pixels where either covered or light differs
-  std::size_t farFromEdge =
-      0;                    ///< those farther than `edgeTolerance` pixels (Chebyshev) from a nonzero pixel of `edges`
+  /// Those farther than `edgeTolerance` pixels (Chebyshev) from a nonzero pixel of `edges`.
+  std::size_t farFromEdge = 0;
   std::size_t covered = 0;  ///< pixels where the truth sees a surface
 };
 

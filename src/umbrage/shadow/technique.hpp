@@ -79,8 +79,8 @@ struct SoftSampling {
 struct Frame {
   scene::Camera camera;
   std::span<const scene::Light> lights;
-  FinderKind silhouettes =
-      FinderKind::automatic;  ///< who finds them, where the technique needs silhouettes; changes no pixel
+  /// Who finds them, where the technique needs silhouettes; changes no pixel.
+  FinderKind silhouettes = FinderKind::automatic;
   VolumeFill fill = VolumeFill::reduced;
   std::optional<Extrusion> extrusion = {};  ///< none: as the technique was made
   /// So many veils of each pixel, the nearest, are lit each by itself; those behind them as the last of these, and without any shadow when it is 0. None: all

@@ -6,13 +6,6 @@
 #include "umbrage/base/file.hpp"
 
 namespace umbrage::io::reader {
-namespace {
-
-// Real files stay below 20; both JSON users walk values recursively.
-constexpr int kMaxJsonDepth = 500;
-
-}  // namespace
-
 bool isInside(const std::filesystem::path& folder, const std::filesystem::path& path) {
   std::error_code failure;
   const auto home = std::filesystem::canonical(folder, failure);
@@ -26,26 +19,6 @@ std::string withoutFolder(std::string text, const std::filesystem::path& file) {
   const std::string folder = file.parent_path().string() + "/";
   for (auto at = text.find(folder); at != std::string::npos; at = text.find(folder, at)) text.erase(at, folder.size());
   return text;
-}
-
-Result<void> checkJsonDepth(std::string_view json) {
-  int depth = 0;
-  bool inString = false;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
-    if (inString) {
-      if (c == '\\') ++i;
-      if (c == '"') inString = false;
-    } else if (c == '"') {
-      inString = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > kMaxJsonDepth)
-        return fail(ErrorCode::input, "is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
-  return {};
 }
 
 Result<std::vector<std::byte>> readJsonBytes(const std::filesystem::path& path) {

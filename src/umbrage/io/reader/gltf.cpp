@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "umbrage/base/file.hpp"
+#include "umbrage/base/json_depth.hpp"
 #include "umbrage/io/reader/files.hpp"
 #include "umbrage/io/reader/gltf_alpha.hpp"
 #include "umbrage/io/reader/gltf_primitive.hpp"
@@ -79,7 +80,7 @@ Result<tinygltf::Model> parse(const Request& request, EmbeddedPictures& pictures
   if (!bytes) return tl::unexpected(bytes.error());
   const bool binary = isBinary(*bytes);
   if (!binary)
-    if (auto fine = checkJsonDepth(jsonOf(*bytes)); !fine) return tl::unexpected(fine.error());
+    if (auto fine = checkJsonDepth(jsonOf(*bytes), kMaxJsonDepth); !fine) return tl::unexpected(fine.error());
   auto folder = request.file.parent_path();
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(keepEmbedded, &pictures);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "umbrage/base/json_depth.hpp"
+
 namespace umbrage::rules::detail {
 namespace {
 
@@ -83,22 +85,8 @@ class StrictWalk final : public nlohmann::json_sax<nlohmann::json> {
 };
 
 Result<void> checkDepth(std::string_view text, const std::string& where) {
-  int depth = 0;
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (quoted) {
-      if (c == '\\') ++i;
-      if (c == '"') quoted = false;
-    } else if (c == '"') {
-      quoted = true;
-    } else if (c == '{' || c == '[') {
-      if (++depth > kDeepest) return fail(ErrorCode::input, "is nested too deeply", where);
-    } else if (c == '}' || c == ']') {
-      --depth;
-    }
-  }
-  return {};
+  const auto fine = checkJsonDepth(text, kDeepest);
+  return fine ? fine : fail(ErrorCode::input, fine.error().message, where);
 }
 
 }  // namespace

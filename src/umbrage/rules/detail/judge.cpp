@@ -16,12 +16,6 @@ class SunDays {
   /// A window, the least height of the sun in it (0 where none is asked for), a place, and the conventions.
   using Key = std::tuple<sun::Instant, sun::Instant, double, double, double, sun::Refraction, study::SunPoint, bool>;
   std::map<Key, std::shared_ptr<const detail::Day>> known;
-
-  /// What sunrise, sunset and true solar time need costs half as much as the day itself: a date, its window, the clock and the place.
-  using Limit = std::optional<std::chrono::milliseconds>;
-  using WindowKey = std::tuple<std::chrono::year_month_day, Clock, Limit, Limit, Limit, Limit, sun::Zone::Kind,
-                               std::string, std::chrono::year, double, double, bool>;
-  std::map<WindowKey, std::optional<study::TimeSpan>> windows;
 };
 
 std::shared_ptr<SunDays> makeSunDays() { return std::make_shared<SunDays>(); }
@@ -322,27 +316,6 @@ std::vector<std::vector<std::size_t>> targetsByGroup(const TargetSet& targets) {
   return groups;
 }
 
-std::optional<TimeSpan> knownWindowOn(const Window& window, year_month_day date, const Conventions& conventions) {
-  const Calendar& calendar = conventions.calendar;
-  const SunDays::WindowKey key{date,
-                               window.clock,
-                               window.from,
-                               window.to,
-                               window.afterSunrise,
-                               window.beforeSunset,
-                               calendar.zone.kind,
-                               calendar.zone.name,
-                               calendar.date.year(),
-                               calendar.place.latitude.radians(),
-                               calendar.place.longitude.radians(),
-                               conventions.clockSwitched};
-  auto& known = conventions.days->windows;
-  auto found = known.find(key);
-  if (found == known.end())
-    found = known.emplace(key, windowOn(window, date, calendar, conventions.clockSwitched)).first;
-  return found->second;
-}
-
 }  // namespace
 
 SunOf sunOf(std::shared_ptr<const study::ExactHours> hours) {
@@ -368,7 +341,7 @@ Conventions conventionsOf(const Rule& rule, const VerifyRequest& request) {
 }
 
 std::shared_ptr<const Day> dayOf(const Measure& measure, year_month_day date, const Conventions& conventions) {
-  const auto window = knownWindowOn(measure.window, date, conventions);
+  const auto window = windowOn(measure.window, date, conventions.calendar, conventions.clockSwitched);
   if (!window) return nullptr;
   const TimeSpan span = *window;
   const SunDays::Key key{span.from,

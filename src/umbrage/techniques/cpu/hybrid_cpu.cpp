@@ -7,7 +7,6 @@
 
 #include "umbrage/techniques/cpu/detail/cpu_volumes.hpp"
 #include "umbrage/techniques/cpu/detail/rays.hpp"
-#include "umbrage/trace/visible_surfaces.hpp"
 
 namespace umbrage::techniques::detail {
 namespace {
@@ -34,7 +33,7 @@ class HybridCpu final : public shadow::Technique {
   Result<void> prepare(std::shared_ptr<const shadow::Geometry> geometry) override {
     geometry_ = std::move(geometry);
     rays_.reset();
-    tracedFor_.reset();
+    sight_.forget();
     missed_ = 0.0;
     volumes_ ? volumes_->use(geometry_) : void(volumes_.emplace(geometry_));
     return {};
@@ -51,8 +50,8 @@ class HybridCpu final : public shadow::Technique {
     const auto tracing = prefersRays(rasterisingTakes, cost::primaryRays(pixels));
     if (!tracing) return tl::unexpected(tracing.error());
     const bool rasterising = !*tracing;
-    out.stats.surfaceKept = rasterising ? seen : tracedFor_ == frame.camera;
-    if (auto done = rasterising ? volumes_->see(frame.camera) : see(frame.camera); !done)
+    out.stats.surfaceKept = rasterising ? seen : sight_.isOf(frame.camera);
+    if (auto done = rasterising ? volumes_->see(frame.camera) : sight_.see(*rays_, frame.camera); !done)
       return tl::unexpected(done.error());
     if (!rasterising || frame.surfaceWanted)
       if (auto done = addSurface(rasterising, out); !done) return tl::unexpected(done.error());
@@ -80,20 +79,9 @@ class HybridCpu final : public shadow::Technique {
     return true;
   }
 
-  // By rays.
-  Result<void> see(const scene::Camera& camera) {
-    if (tracedFor_ == camera) return {};
-    tracedFor_.reset();
-    auto surface = trace::visibleSurfaces(rays_->occlusion(), camera);
-    if (!surface) return tl::unexpected(surface.error());
-    traced_ = std::move(*surface);
-    tracedFor_ = camera;
-    return {};
-  }
-
   Result<void> addSurface(bool rasterised, shadow::Shading& out) {
     if (!out.surface.triangle.empty()) return {};
-    auto surface = rasterised ? volumes_->surface() : Result<shadow::SurfaceBuffer>(traced_);
+    auto surface = rasterised ? volumes_->surface() : Result<shadow::SurfaceBuffer>(sight_.surface());
     if (!surface) return tl::unexpected(surface.error());
     out.surface = std::move(*surface);
     return {};
@@ -133,8 +121,7 @@ class HybridCpu final : public shadow::Technique {
   std::shared_ptr<const shadow::Geometry> geometry_;
   std::optional<CpuVolumes> volumes_;
   std::optional<Rays> rays_;
-  std::optional<scene::Camera> tracedFor_;  ///< whose picture by rays is here
-  shadow::SurfaceBuffer traced_;
+  RaySight sight_;       ///< by these rays
   double missed_ = 0.0;  ///< what rays would have saved so far
 };
 

@@ -3,7 +3,6 @@
 #include "umbrage/shadow/phase_clock.hpp"
 #include "umbrage/techniques/cpu/detail/ray_traced.hpp"
 #include "umbrage/techniques/cpu/detail/rays.hpp"
-#include "umbrage/trace/visible_surfaces.hpp"
 
 namespace umbrage::techniques::detail {
 namespace {
@@ -17,7 +16,7 @@ class RayTraced final : public shadow::Technique {
     auto built = Rays::build(geometry);
     if (!built) return tl::unexpected(built.error());
     rays_.emplace(std::move(*built));
-    camera_.reset();
+    sight_.forget();
     return {};
   }
 
@@ -25,35 +24,24 @@ class RayTraced final : public shadow::Technique {
     UMBRAGE_CHECK(rays_.has_value(), "shade() before prepare()");
     shadow::Shading out;
     shadow::PhaseClock clock(out.stats.phases);
-    out.stats.surfaceKept = camera_ == frame.camera;
-    if (auto done = see(frame.camera); !done) return tl::unexpected(done.error());
+    out.stats.surfaceKept = sight_.isOf(frame.camera);
+    if (auto done = sight_.see(*rays_, frame.camera); !done) return tl::unexpected(done.error());
     clock.end("surface");
     for (const scene::Light& light : frame.lights) {
-      auto mask = rays_->mask(frame.camera, light, seen_);
+      auto mask = rays_->mask(frame.camera, light, sight_.surface());
       if (!mask) return tl::unexpected(mask.error());
       out.masks.push_back(std::move(*mask));
       out.stats.lights.push_back({.method = "ray_traced", .reason = "one ray per lit-facing pixel towards the light"});
       clock.end("shadow");
     }
-    if (frame.surfaceWanted) out.surface = seen_;
+    if (frame.surfaceWanted) out.surface = sight_.surface();
     return out;
   }
 
  private:
-  Result<void> see(const scene::Camera& camera) {
-    if (camera_ == camera) return {};
-    camera_.reset();
-    auto seen = trace::visibleSurfaces(rays_->occlusion(), camera);
-    if (!seen) return tl::unexpected(seen.error());
-    seen_ = std::move(*seen);
-    camera_ = camera;
-    return {};
-  }
-
   shadow::Traits traits_;
   std::optional<Rays> rays_;
-  std::optional<scene::Camera> camera_;  ///< whose picture is here
-  shadow::SurfaceBuffer seen_;
+  RaySight sight_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "umbrage/trace/light_rays.hpp"
 #include "umbrage/trace/tiles.hpp"
+#include "umbrage/trace/visible_surfaces.hpp"
 
 namespace umbrage::techniques::detail {
 namespace {
@@ -99,6 +100,16 @@ Result<shadow::LightMask> Rays::mask(const scene::Camera& camera, const scene::L
   });
   if (!done) return tl::unexpected(done.error());
   return mask;
+}
+
+Result<void> RaySight::see(const Rays& rays, const scene::Camera& camera) {
+  if (isOf(camera)) return {};
+  camera_.reset();
+  auto surface = trace::visibleSurfaces(rays.occlusion(), camera);
+  if (!surface) return tl::unexpected(surface.error());
+  surface_ = std::move(*surface);
+  camera_ = camera;
+  return {};
 }
 
 }  // namespace umbrage::techniques::detail

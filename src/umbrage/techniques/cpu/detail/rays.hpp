@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,20 @@ class Rays {
   explicit Rays(trace::Occlusion occlusion);
   trace::Occlusion occlusion_;
   std::vector<Plane> planes_;
+};
+
+/// What a camera sees by rays, kept until it is asked of another.
+class RaySight {
+ public:
+  /// REQUIRES: always the same rays, but for forget() between.
+  [[nodiscard]] Result<void> see(const Rays& rays, const scene::Camera& camera);
+  void forget() { camera_.reset(); }
+  [[nodiscard]] bool isOf(const scene::Camera& camera) const { return camera_ == camera; }
+  [[nodiscard]] const shadow::SurfaceBuffer& surface() const { return surface_; }
+
+ private:
+  std::optional<scene::Camera> camera_;
+  shadow::SurfaceBuffer surface_;
 };
 
 }  // namespace umbrage::techniques::detail
